@@ -123,11 +123,5 @@ fn number_color(number: u32) -> [f32; 3] {
 /// From black over blue, green, yellow and red to white, as the view of traversal costs.
 fn heat(place: f32) -> [f32; 3] {
     let stops = super::legend::stops(glimray_render::Quantity::Work);
-    let at = place * (stops.len() - 1) as f32;
-    let index = (at as usize).min(stops.len() - 2);
-    let share = at - index as f32;
-    [0, 1, 2].map(|channel| {
-        let [from, to] = [index, index + 1].map(|it| f32::from(stops[it][channel]) / 255.0);
-        from + share * (to - from)
-    })
+    super::legend::color_at(stops, place).map(|level| level / 255.0)
 }

@@ -36,6 +36,31 @@ pub fn stops(quantity: Quantity) -> &'static [[u8; 3]] {
     }
 }
 
+/// The colours of errors from none to the greatest: nine places of Matplotlib's magma, as FLIP's authors use it.
+pub const ERRORS: &[[u8; 3]] = &[
+    [0, 0, 4],
+    [28, 16, 68],
+    [79, 18, 123],
+    [129, 37, 129],
+    [181, 54, 122],
+    [229, 80, 100],
+    [251, 135, 97],
+    [254, 194, 135],
+    [252, 253, 191],
+];
+
+/// The colour at a place from 0 to 1 in a gradient of evenly spaced stops, in levels.
+pub fn color_at(stops: &[[u8; 3]], place: f32) -> [f32; 3] {
+    let last = stops.len().saturating_sub(1);
+    let at = place.clamp(0.0, 1.0) * last as f32;
+    let index = (at as usize).min(last.saturating_sub(1));
+    let share = at - index as f32;
+    [0, 1, 2].map(|channel| {
+        let [from, to] = [index, (index + 1).min(last)].map(|it| f32::from(stops[it][channel]));
+        from + share * (to - from)
+    })
+}
+
 /// Formats a value with three significant digits, and with all digits before the decimal point.
 pub fn number(value: f32) -> String {
     let digits = match value.abs() {

@@ -5,6 +5,7 @@ pub mod advice;
 pub mod clock;
 pub mod console;
 pub mod error;
+pub mod false_color;
 pub mod flag_values;
 pub mod flip;
 pub mod folders;

@@ -177,6 +177,7 @@ impl Stage {
             tone: Tone::LINEAR,
             layer: glimray_app::layers::PictureLayer::Beauty,
             denoises_previews: true,
+            false_color: false,
         });
         thread.submit(requests.clone());
         Ok(Self {

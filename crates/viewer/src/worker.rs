@@ -2,6 +2,7 @@
 
 pub mod classical;
 pub mod comparison;
+pub mod error_map;
 pub mod film;
 pub mod free_name;
 pub mod job;

@@ -8,7 +8,7 @@ use crate::model::bindings::Action;
 use crate::model::camera::{CameraController, CameraHistory, Flight, Side};
 use crate::model::preferences::Theme;
 use crate::model::tool::Tool;
-use crate::model::view_settings::{GAIN, Sharing};
+use crate::model::view_settings::{ErrorMap, Measure, Sharing};
 use crate::model::viewport::PixelZoom;
 use crate::state::dialogs::Dialog;
 use crate::state::files::Intent;
@@ -155,13 +155,28 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         }
         Action::NextLayer => session.view.step_layer(1),
         Action::PreviousLayer => session.view.step_layer(-1),
+        Action::FalseColor => session.view.toggle_false_color(),
         Action::SplitWipe => session.view.compare(Sharing::Wipe(0.5)),
         Action::SideBySide => session.view.compare(Sharing::SideBySide),
-        Action::ShowDifference => session.view.compare(Sharing::Difference(GAIN)),
+        Action::ShowDifference => session
+            .view
+            .compare(Sharing::Difference(ErrorMap::new(Measure::Absolute))),
         Action::SwapSides => session.view.swap_sides(),
         Action::KeepSnapshot => comparing::keep_snapshot(session),
         Action::FlipKept => comparing::flip(session),
         Action::NextKept => comparing::flip_to_next(session),
+        Action::Kept1
+        | Action::Kept2
+        | Action::Kept3
+        | Action::Kept4
+        | Action::Kept5
+        | Action::Kept6
+        | Action::Kept7
+        | Action::Kept8 => {
+            if let Some(number) = action.kept_number() {
+                comparing::flip_to(session, number);
+            }
+        }
         Action::OpenReference => comparing::ask_reference(session, ctx),
         Action::ExposureUp => session.view.tone.exposure_ev += EXPOSURE_STEP,
         Action::ExposureDown => session.view.tone.exposure_ev -= EXPOSURE_STEP,

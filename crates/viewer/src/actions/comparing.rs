@@ -1,5 +1,6 @@
 //! Keeps snapshots and opens reference pictures to compare with.
 
+use crate::model::bindings::Action;
 use crate::model::file_dialog::{self, Reply, Request};
 use crate::model::gallery::{MOST, Snapshot, StillId};
 use crate::model::view_settings::{Comparison, Sharing, Source};
@@ -10,7 +11,7 @@ use crate::worker::progressive_image::FrameRenderer;
 use eframe::egui;
 use glimray_app::{advice, picture_file};
 use glimray_render::{Shows, Tone};
-use glimray_scene::image::Image;
+use glimray_scene::image::{Image, ScreenImage};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{TryRecvError, channel};
 
@@ -47,9 +48,16 @@ fn snapshot(frame: &mut FrameRenderer) -> Answer {
         false => request.tone,
     };
     let how = if is_denoised { ", denoised" } else { "" };
-    match frame.image(&tone) {
-        Ok((image, samples)) => Answer::Snapshot(Box::new(Snapshot {
+    let kept = frame.image(&tone).and_then(|kept| {
+        let screen = frame.screen_image()?;
+        // Without a presentation, the pixels are what is known.
+        let screen = screen.unwrap_or_else(|| ScreenImage::from(&kept.0));
+        Ok((kept, screen))
+    });
+    match kept {
+        Ok(((image, samples), screen)) => Answer::Snapshot(Box::new(Snapshot {
             image,
+            screen,
             region,
             size: request.settings.size,
             is_radiance,
@@ -66,7 +74,12 @@ pub fn kept(session: &mut Session, snapshot: Snapshot) {
     }
     let still = session.comparing.gallery.keep_snapshot(snapshot);
     session.view.proposed = Some(Source::Still(still.id));
-    let told = format!("Kept {}. Choose a comparison to see it", still.name);
+    let (name, number) = (still.name.clone(), still.number);
+    let key = Action::kept(number).map(|action| session.preferences.bindings.label(action));
+    let told = match key.filter(|key| !key.is_empty()) {
+        Some(key) => format!("Kept {name}. {key} flips to it"),
+        None => format!("Kept {name}. Choose a comparison to see it"),
+    };
     session.messages.notify(told);
 }
 
@@ -82,10 +95,23 @@ pub fn flip(session: &mut Session) {
                 .or(session.view.comparison.map(|it| it.source));
             let still = match proposed {
                 Some(Source::Still(id)) => Some(id),
-                _ => session.comparing.gallery.all().last().map(|still| still.id),
+                _ => session.comparing.gallery.newest().map(|still| still.id),
             };
             show(session, still);
         }
+    }
+}
+
+/// Shows the kept picture with this number in place of the present one, or the present one again if that is shown already.
+pub fn flip_to(session: &mut Session, number: usize) {
+    let Some(id) = (session.comparing.gallery.numbered(number)).map(|still| still.id) else {
+        let told = format!("No picture is kept under {number}");
+        session.messages.notify(told);
+        return;
+    };
+    match flipped(session) == Some(id) {
+        true => session.view.comparison = session.unflipped.take(),
+        false => show(session, Some(id)),
     }
 }
 
@@ -99,7 +125,7 @@ pub fn flip_to_next(session: &mut Session) {
 }
 
 /// The kept picture that is shown in place of the present one.
-fn flipped(session: &Session) -> Option<StillId> {
+pub fn flipped(session: &Session) -> Option<StillId> {
     match session.view.comparison? {
         Comparison {
             source: Source::Still(id),
@@ -135,6 +161,7 @@ fn show(session: &mut Session, still: Option<StillId>) {
 pub fn remove(session: &mut Session, still: StillId) {
     session.view.forget(still);
     (session.unflipped).take_if(|before| before.source == Source::Still(still));
+    (session.comparing.renaming).take_if(|(renamed, _)| *renamed == still);
     session.comparing.gallery.remove(still);
 }
 

@@ -1,11 +1,15 @@
 //! Stills that the picture is compared with: snapshots of it, and reference pictures from files.
 
-use glimray_scene::image::Image;
+use glimray_scene::image::{Image, ScreenImage};
+use glimray_scene::srgb_from_linear;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Maximum number of stills. Each takes 16 bytes per pixel.
+/// Maximum number of stills: each has a number, and each number a key. A still takes 16 bytes per pixel.
 pub const MOST: usize = 8;
+
+/// Largest width and height of a thumbnail, in pixels.
+const THUMBNAIL: (u32, u32) = (80, 60);
 
 /// Identifies a still for as long as the window is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -16,12 +20,16 @@ pub struct StillId(u32);
 pub struct Still {
     /// The still's identifier.
     pub id: StillId,
-    /// `Snapshot 1`, or the name of the file.
+    /// The number of its key, from 1 to [`MOST`]: the least that was free when it was kept.
+    pub number: usize,
+    /// `Snapshot 1`, the name of the file, or what the user calls it.
     pub name: String,
     /// The view mode and the samples of a snapshot; the path of a reference picture.
     pub detail: String,
     /// The pixels; transparent outside a rendered region.
     pub picture: Arc<Image>,
+    /// A small copy, as it looked when it was kept.
+    pub thumbnail: Arc<ScreenImage>,
     /// Whether the pixels are linear radiance, so that tone mapping applies; otherwise display values.
     pub is_radiance: bool,
     /// The file of a reference picture.
@@ -44,19 +52,20 @@ pub struct Snapshot {
     pub region: [u32; 4],
     /// Width and height of the whole picture.
     pub size: (u32, u32),
+    /// The picture as it is displayed.
+    pub screen: ScreenImage,
     /// Whether the pixels are linear radiance.
     pub is_radiance: bool,
     /// The view mode and the number of samples.
     pub detail: String,
 }
 
-/// The stills, the oldest first.
+/// The stills in the order of their numbers.
 #[derive(Debug, Default)]
 pub struct Gallery {
     stills: Vec<Still>,
-    /// Number of stills and of snapshots so far.
+    /// Number of stills so far.
     count: u32,
-    snapshots: u32,
 }
 
 impl Gallery {
@@ -70,6 +79,16 @@ impl Gallery {
         self.stills.iter().find(|still| still.id == id)
     }
 
+    /// The still with this number.
+    pub fn numbered(&self, number: usize) -> Option<&Still> {
+        self.stills.iter().find(|still| still.number == number)
+    }
+
+    /// The still that was kept last.
+    pub fn newest(&self) -> Option<&Still> {
+        self.stills.iter().max_by_key(|still| still.id.0)
+    }
+
     /// Whether another still would exceed [`MOST`].
     pub fn is_full(&self) -> bool {
         self.stills.len() >= MOST
@@ -81,31 +100,46 @@ impl Gallery {
         paths.any(|known| known == Some(path))
     }
 
-    /// Keeps a snapshot under the next free name.
+    /// Keeps a snapshot, which is called by its number.
     pub fn keep_snapshot(&mut self, snapshot: Snapshot) -> &Still {
-        self.snapshots += 1;
-        let name = format!("Snapshot {}", self.snapshots);
+        let number = self.free_number();
+        let name = format!("Snapshot {number}");
+        let thumbnail = Arc::new(thumbnail(&snapshot.screen));
         let (is_radiance, detail) = (snapshot.is_radiance, snapshot.detail.clone());
         let picture = Arc::new(whole(snapshot));
         self.keep(Still {
             id: StillId(0),
+            number,
             name,
             detail,
             picture,
+            thumbnail,
             is_radiance,
             path: None,
         })
     }
 
-    /// Keeps a reference picture. It replaces the one from the same file.
+    /// Keeps a reference picture. It replaces the one from the same file, and has its number and name.
     pub fn keep_reference(&mut self, path: &Path, picture: Image, is_radiance: bool) -> &Still {
+        let is_same = |still: &&Still| still.path.as_deref() == Some(path);
+        let before = self.stills.iter().find(is_same).cloned();
         (self.stills).retain(|still| still.path.as_deref() != Some(path));
         let name = path.file_name().unwrap_or(path.as_os_str());
+        let (number, name) = match before {
+            Some(before) => (before.number, before.name),
+            None => (self.free_number(), name.to_string_lossy().into_owned()),
+        };
+        let screen = match is_radiance {
+            true => ScreenImage::from(&encoded(&picture)),
+            false => ScreenImage::from(&picture),
+        };
         self.keep(Still {
             id: StillId(0),
-            name: name.to_string_lossy().into_owned(),
+            number,
+            name,
             detail: path.display().to_string(),
             picture: Arc::new(picture),
+            thumbnail: Arc::new(thumbnail(&screen)),
             is_radiance,
             path: Some(path.to_owned()),
         })
@@ -114,13 +148,79 @@ impl Gallery {
     fn keep(&mut self, still: Still) -> &Still {
         self.count += 1;
         let id = StillId(self.count);
-        self.stills.push(Still { id, ..still });
-        &self.stills[self.stills.len() - 1]
+        let place = (self.stills).partition_point(|other| other.number < still.number);
+        self.stills.insert(place, Still { id, ..still });
+        &self.stills[place]
+    }
+
+    fn free_number(&self) -> usize {
+        let mut numbers = 1..;
+        let is_free = |number: &usize| self.numbered(*number).is_none();
+        numbers.find(is_free).unwrap_or(MOST)
+    }
+
+    /// Calls a still something else. Space around the name is left out, and an empty name changes nothing.
+    pub fn rename(&mut self, id: StillId, name: &str) {
+        let still = self.stills.iter_mut().find(|still| still.id == id);
+        if let Some(still) = still.filter(|_| !name.trim().is_empty()) {
+            name.trim().clone_into(&mut still.name);
+        }
     }
 
     /// Forgets a still.
     pub fn remove(&mut self, id: StillId) {
         self.stills.retain(|still| still.id != id);
+    }
+}
+
+/// Radiance as display values, without a tone curve.
+fn encoded(radiance: &Image) -> Image {
+    let encode = |value: f32| srgb_from_linear(value.clamp(0.0, 1.0));
+    let pixels = radiance.pixels.iter();
+    Image {
+        pixels: pixels
+            .map(|&[r, g, b, opacity]| [encode(r), encode(g), encode(b), opacity])
+            .collect(),
+        ..*radiance
+    }
+}
+
+/// An opaque picture of at most [`THUMBNAIL`] pixels: means of the pixels in a grid, transparent where there are none.
+fn thumbnail(picture: &ScreenImage) -> ScreenImage {
+    let (wide, high) = (picture.width.max(1), picture.height.max(1));
+    let share = [
+        THUMBNAIL.0 as f32 / wide as f32,
+        THUMBNAIL.1 as f32 / high as f32,
+    ];
+    let share = share[0].min(share[1]).min(1.0);
+    let [width, height] = [wide, high].map(|side| ((side as f32 * share).round() as u32).max(1));
+    let mut pixels = Vec::with_capacity(width as usize * height as usize);
+    for y in 0..height {
+        for x in 0..width {
+            let span = |at: u32, of: u32, side: u32| {
+                let [from, to] =
+                    [at, at + 1].map(|at| u64::from(at) * u64::from(side) / u64::from(of));
+                from as usize..to as usize
+            };
+            let mut sums = [0_u32; 4];
+            for row in span(y, height, high) {
+                for column in span(x, width, wide) {
+                    let pixel = picture.pixels.get(row * wide as usize + column);
+                    for (sum, value) in sums.iter_mut().zip(pixel.into_iter().flatten()) {
+                        *sum += u32::from(*value);
+                    }
+                }
+            }
+            // Of what is there: a picture in progress has pixels without a sample.
+            let [r, g, b, opacity] = sums;
+            let level = |sum: u32| (sum * 255 / opacity.max(1)).min(255) as u8;
+            pixels.push([level(r), level(g), level(b), u8::from(opacity > 0) * 255]);
+        }
+    }
+    ScreenImage {
+        width,
+        height,
+        pixels,
     }
 }
 

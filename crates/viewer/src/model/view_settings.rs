@@ -2,6 +2,7 @@
 
 use crate::model::gallery::StillId;
 use crate::model::playback::Playback;
+pub use crate::worker::error_map::{ErrorMap, Measure};
 use glam::Vec3;
 use glimray_app::layers::{LAYERS, PictureLayer};
 use glimray_render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
@@ -10,9 +11,7 @@ use glimray_scene::{Background, LightTransport, OutputDefaults, ToneCurve};
 /// Maximum samples per pixel.
 pub const MAX_SAMPLES: u32 = 65_536;
 
-/// Initial and maximum gain of a difference. The minimum is 1.
-pub const GAIN: f32 = 4.0;
-/// See [`GAIN`].
+/// Maximum gain of a difference. The minimum is 1.
 pub const MAX_GAIN: f32 = 100.0;
 
 /// The settings of the picture and of its comparison.
@@ -24,6 +23,8 @@ pub struct ViewSettings {
     pub tone: Tone,
     /// The layer of the picture that is shown; debug views have no layers.
     pub layer: PictureLayer,
+    /// Whether luminance is shown in false colours, in place of the picture.
+    pub false_color: bool,
     /// Overrides the scene's background.
     pub background: Option<Background>,
     /// Whether the picture has the size of its panel; else the size of the settings.
@@ -69,8 +70,29 @@ pub enum Sharing {
     Wipe(f32),
     /// Two pictures side by side.
     SideBySide,
-    /// The absolute difference of both pictures, multiplied by this gain from 1 to [`MAX_GAIN`].
-    Difference(f32),
+    /// The difference of both pictures. The gain is 1 to [`MAX_GAIN`].
+    Difference(ErrorMap),
+}
+
+impl Sharing {
+    /// All that are offered, with their names. FLIP needs a cargo feature.
+    pub fn offered() -> impl Iterator<Item = (&'static str, Self)> {
+        let plain = [
+            ("Split wipe", Self::Wipe(0.5)),
+            ("Side by side", Self::SideBySide),
+        ];
+        let maps = Measure::ALL.into_iter().filter(|it| it.is_built());
+        let maps = maps.map(|measure| (measure.title(), Self::Difference(ErrorMap::new(measure))));
+        plain.into_iter().chain(maps)
+    }
+
+    /// Whether both are the same layout, wherever their line is and whatever their gain.
+    pub fn is_like(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Difference(own), Self::Difference(other)) => own.measure == other.measure,
+            _ => std::mem::discriminant(&self) == std::mem::discriminant(&other),
+        }
+    }
 }
 
 impl Comparison {
@@ -82,10 +104,10 @@ impl Comparison {
         }
     }
 
-    /// The gain, if the difference is shown.
-    pub fn gain(&self) -> Option<f32> {
+    /// The error map, if the difference is shown.
+    pub fn error_map(&self) -> Option<ErrorMap> {
         match self.sharing {
-            Sharing::Difference(gain) => Some(gain),
+            Sharing::Difference(map) => Some(map),
             Sharing::Wipe(_) | Sharing::SideBySide => None,
         }
     }
@@ -99,6 +121,7 @@ impl ViewSettings {
             settings,
             tone,
             layer: PictureLayer::Beauty,
+            false_color: false,
             background: None,
             fits,
             comparison: None,
@@ -125,10 +148,8 @@ impl ViewSettings {
 
     /// Starts a comparison, or ends it if it has this layout already.
     pub fn compare(&mut self, sharing: Sharing) {
-        let is_same =
-            |now: Sharing| std::mem::discriminant(&now) == std::mem::discriminant(&sharing);
         self.comparison = match self.comparison {
-            Some(comparison) if is_same(comparison.sharing) => None,
+            Some(comparison) if comparison.sharing.is_like(sharing) => None,
             Some(comparison) => Some(Comparison {
                 sharing,
                 ..comparison
@@ -180,6 +201,7 @@ impl ViewSettings {
     /// Shows a layer. The first other than the beauty starts the picture over, as its film has no layers.
     pub fn show_layer(&mut self, layer: PictureLayer) {
         self.layer = layer;
+        self.false_color = false;
         self.settings.features |= layer != PictureLayer::Beauty;
     }
 
@@ -189,6 +211,16 @@ impl ViewSettings {
         let own = LAYERS.0.iter().position(|(.., layer)| *layer == self.layer);
         let next = (own.unwrap_or_default() as isize + by).rem_euclid(count);
         self.show_layer(LAYERS.0[next as usize].2);
+    }
+
+    /// Shows the picture's luminance in false colours, or its own colours again.
+    pub fn toggle_false_color(&mut self) {
+        let is_shown = self.false_color;
+        if !is_shown && self.settings.integrator.entry().shows != Shows::Radiance {
+            self.settings.integrator = self.scene_settings.integrator;
+        }
+        self.show_layer(PictureLayer::Beauty);
+        self.false_color = !is_shown;
     }
 
     /// Selects the next tone curve.

@@ -1,7 +1,7 @@
 //! The stills that the picture is compared with, and the reference picture that is being opened.
 
 use crate::model::file_dialog::Reply;
-use crate::model::gallery::Gallery;
+use crate::model::gallery::{Gallery, StillId};
 use glimray_app::error::AppError;
 use glimray_app::picture_file::Picture;
 use std::path::PathBuf;
@@ -18,6 +18,8 @@ pub struct Reading {
 pub struct Comparing {
     /// The stills.
     pub gallery: Gallery,
+    /// The still that is given another name, and what is typed so far.
+    pub renaming: Option<(StillId, String)>,
     /// The typed path of a reference picture.
     pub typed: Option<String>,
     /// The pending reply of the file dialog.

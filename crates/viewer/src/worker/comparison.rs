@@ -1,10 +1,17 @@
 //! The second picture of a comparison where it is not rendered, and the difference of both pictures.
 
+use crate::worker::error_map::{self, ErrorMap, Measure};
 use crate::worker::progressive_image::{ProgressiveImage, Shown};
 use glimray_render::gpu::Gpu;
 use glimray_render::{RenderError, Screen, Tone};
-use glimray_scene::image::{Difference, Image, Placed, ScreenImage};
+use glimray_scene::image::{Difference, Errors, Image, Placed, ScreenImage};
+use glimray_scene::linear_from_srgb;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Minimum interval between error maps that pass through the host, while the pictures change; at least 4× the time of the last.
+const PAUSE: Duration = Duration::from_millis(500);
+const PAUSES: u32 = 4;
 
 /// A picture that is compared with the rendered one.
 #[derive(Clone, Debug)]
@@ -26,13 +33,15 @@ impl PartialEq for StillRequest {
 pub struct ShownDifference {
     /// The difference, multiplied by the gain.
     pub screen: Screen,
+    /// What was measured.
+    pub measure: Measure,
     /// The part of the picture that it covers: x, y, width and height in pixels of the whole picture.
     pub region: [u32; 4],
     /// Whether it is that of a preview.
     pub is_coarse: bool,
-    /// Root mean square difference of the displayed colours, without the gain, in 0..=1.
+    /// Root mean square of the error, without the gain. A difference of displayed colours is in 0..=1.
     pub rmse: f64,
-    /// Mean absolute difference of the displayed colours, without the gain, in 0..=1.
+    /// Mean of the error, without the gain.
     pub mean: f64,
 }
 
@@ -45,7 +54,7 @@ struct Still {
 /// The inputs of a difference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Subject {
-    gain: f32,
+    map: ErrorMap,
     /// Presentations of both rendered pictures, and number of stills so far.
     states: [u64; 3],
     region: [u32; 4],
@@ -61,6 +70,8 @@ pub struct Compared {
     subject: Option<Subject>,
     difference: Option<ShownDifference>,
     frames_shown: u64,
+    /// When the last error map was ready, and how long it took.
+    last: Option<(Instant, Duration)>,
 }
 
 impl Compared {
@@ -74,6 +85,7 @@ impl Compared {
             subject: None,
             difference: None,
             frames_shown: 0,
+            last: None,
         }
     }
 
@@ -116,40 +128,61 @@ impl Compared {
         Ok(())
     }
 
-    /// Updates the difference of the main picture and the second one, which is the still if there is one, or else given with
-    /// the number of its presentations. `gain` is `None` if no difference is wanted.
+    /// Updates the difference of the main picture and the second one, which is the still if there is one, or else the other of
+    /// `pictures`: the main one comes last, and `raw` makes the second the main one without denoising. `map` is `None` if no
+    /// difference is wanted. While the pictures change, costly maps are not computed for each of their presentations.
     ///
     /// # Errors
     /// The device failed.
     pub fn compare(
         &mut self,
-        gain: Option<f32>,
-        main: &ProgressiveImage,
-        (beside, beside_shown): (Option<Shown>, u64),
+        map: Option<ErrorMap>,
+        [beside, main]: [&mut ProgressiveImage; 2],
+        raw: bool,
+        changes: bool,
     ) -> Result<(), RenderError> {
-        let Some((gain, shown)) = gain.zip(main.shown()) else {
+        let Some((map, shown)) = map.zip(main.shown()) else {
             self.subject = None;
             self.difference = None;
             return Ok(());
         };
+        let second = if raw { &*main } else { &*beside };
         let subject = Subject {
-            gain,
-            states: [main.frames_shown(), beside_shown, self.stills],
+            map,
+            states: [main.frames_shown(), second.frames_shown(), self.stills],
             region: shown.region,
             size: shown.size,
         };
-        if self.subject == Some(subject) {
+        let is_coarse = shown.screen.is_none();
+        let waits = map.measure != Measure::Absolute
+            && (changes || is_coarse)
+            && (self.last).is_some_and(|(end, took)| end.elapsed() < PAUSE.max(PAUSES * took));
+        let is_other_map = self.subject.is_none_or(|before| before.map != map);
+        if self.subject == Some(subject) || waits && !is_other_map {
             return Ok(());
         }
-        self.difference = self.measured(gain, &shown, beside)?;
+        let started = Instant::now();
+        self.difference = match map.measure.is_of_linear_values() {
+            true => self.linear_difference(map, [beside, main], raw)?,
+            false => {
+                let beside = if raw {
+                    main.shown_raw()
+                } else {
+                    beside.shown()
+                };
+                self.displayed_difference(map, &shown, beside)?
+            }
+        };
+        self.last = Some((Instant::now(), started.elapsed()));
         self.frames_shown += u64::from(self.difference.is_some());
         self.subject = Some(subject);
         Ok(())
     }
 
-    fn measured(
+    /// The difference of the pictures as they are displayed.
+    fn displayed_difference(
         &self,
-        gain: f32,
+        map: ErrorMap,
         shown: &Shown,
         beside: Option<Shown>,
     ) -> Result<Option<ShownDifference>, RenderError> {
@@ -175,20 +208,102 @@ impl Compared {
             },
             (None, None) => return Ok(None),
         };
-        let Difference { image, rmse, mean } = Difference::new(first, second, gain);
-        Ok(Some(ShownDifference {
-            screen: Screen::of(&self.gpu, &image)?,
+        if map.measure == Measure::Flip {
+            let errors = error_map::flip(first, second);
+            let found = errors.map(|errors| self.painted(map, &errors, shown));
+            return found.transpose();
+        }
+        let Difference { image, rmse, mean } = Difference::new(first, second, map.gain);
+        self.of_image(map, &image, shown, [rmse, mean]).map(Some)
+    }
+
+    /// The relative error of the pictures before exposure and tone curve.
+    fn linear_difference(
+        &self,
+        map: ErrorMap,
+        [beside, main]: [&mut ProgressiveImage; 2],
+        raw: bool,
+    ) -> Result<Option<ShownDifference>, RenderError> {
+        let Some((first, shown)) = main.linear(false)?.zip(main.shown()) else {
+            return Ok(None);
+        };
+        let (second, edges_of_second) = match (&self.request, raw) {
+            (Some(still), _) => {
+                let image = match still.tone {
+                    Some(_) => still.picture.clone(),
+                    None => Arc::new(linear(&still.picture)),
+                };
+                let edges = still_edges((image.width, image.height), shown.size);
+                (Some(image), edges)
+            }
+            (None, true) => (
+                main.linear(true)?.map(Arc::new),
+                edges(shown.region, shown.size),
+            ),
+            (None, false) => {
+                let other = beside.shown();
+                let edges = other.map_or([0.0, 0.0, 1.0, 1.0], |it| edges(it.region, it.size));
+                (beside.linear(false)?.map(Arc::new), edges)
+            }
+        };
+        let Some(second) = second else {
+            return Ok(None);
+        };
+        let first = Placed {
+            image: &first,
+            edges: edges(shown.region, shown.size),
+        };
+        let second = Placed {
+            image: &*second,
+            edges: edges_of_second,
+        };
+        let errors = map.relative(first, second);
+        self.painted(map, &errors, &shown).map(Some)
+    }
+
+    fn painted(
+        &self,
+        map: ErrorMap,
+        errors: &Errors,
+        shown: &Shown,
+    ) -> Result<ShownDifference, RenderError> {
+        let figures = [errors.rms(), errors.mean()];
+        self.of_image(map, &map.painted(errors), shown, figures)
+    }
+
+    fn of_image(
+        &self,
+        map: ErrorMap,
+        image: &ScreenImage,
+        shown: &Shown,
+        [rmse, mean]: [f64; 2],
+    ) -> Result<ShownDifference, RenderError> {
+        Ok(ShownDifference {
+            screen: Screen::of(&self.gpu, image)?,
+            measure: map.measure,
             region: shown.region,
             is_coarse: shown.screen.is_none(),
             rmse,
             mean,
-        }))
+        })
     }
 
     /// Reads the visible picture.
     fn read(&self, shown: &Shown) -> Result<Option<ScreenImage>, RenderError> {
         let screen = shown.screen.as_ref().or(shown.under.as_ref());
         screen.map(|screen| screen.read(&self.gpu)).transpose()
+    }
+}
+
+/// Display values as linear ones.
+pub(super) fn linear(displayed: &Image) -> Image {
+    let decode = |value: f32| linear_from_srgb(value.into()) as f32;
+    let pixels = displayed.pixels.iter();
+    Image {
+        pixels: pixels
+            .map(|&[r, g, b, opacity]| [decode(r), decode(g), decode(b), opacity])
+            .collect(),
+        ..*displayed
     }
 }
 

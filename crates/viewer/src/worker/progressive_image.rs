@@ -16,12 +16,12 @@ pub use shown::{Progress, Shown};
 use crate::worker::classical::ShownScenes;
 use crate::worker::request::RenderRequest;
 use crate::worker::stage::{ReportStage, Stage};
-use glimray_app::layer_picture;
 use glimray_app::layers::PictureLayer;
+use glimray_app::{false_color, layer_picture};
 use glimray_render::gpu::Gpu;
 use glimray_render::pack::{PackedScene, PackedView};
 use glimray_render::{Antialias, Renderer, Screen, Tone};
-use glimray_scene::{Frame, Scene};
+use glimray_scene::{Frame, Scene, ToneCurve, Transfer};
 use noise::Noise;
 use std::sync::{Arc, Weak};
 use std::time::{Duration, Instant};
@@ -200,9 +200,10 @@ impl ProgressiveImage {
             denoise: request.tone.denoise || self.is_coarse && request.denoises_coarse(),
             ..request.tone
         };
-        let is_beauty = request.layer == PictureLayer::Beauty;
+        let is_false_color = request.is_false_color();
+        let is_beauty = request.layer == PictureLayer::Beauty && !is_false_color;
         let is_direct = is_beauty && renderer.shows_directly(&tone);
-        let is_denoised = is_beauty && renderer.denoises(&tone);
+        let is_denoised = (is_beauty || is_false_color) && renderer.denoises(&tone);
         let interval = match (is_denoised, is_direct) {
             (true, _) => DENOISED.max(DENOISED_PAUSE * self.look_time),
             (false, true) => pace::between_looks(&self.gpu),
@@ -233,6 +234,16 @@ impl ProgressiveImage {
                 let features = renderer.features()?;
                 let image = layer_picture::picture(layer, &features, &request.tone, &self.gpu)?;
                 screen.write(&self.gpu, &(&image).into())?;
+                None
+            }
+            _ if is_false_color => {
+                let exposed = Tone {
+                    curve: ToneCurve::None,
+                    transfer: Transfer::Linear,
+                    ..tone
+                };
+                let image = false_color::picture(&renderer.develop(&exposed)?);
+                screen.write(&self.gpu, &image)?;
                 None
             }
             _ => renderer.show(&tone, screen)?,

@@ -5,6 +5,7 @@
 //! what was published last.
 
 use crate::worker::comparison::{Compared, ShownDifference, StillRequest};
+use crate::worker::error_map::ErrorMap;
 use crate::worker::progressive_image::{
     FrameRenderer, ImageError, PictureSlot, ProgressiveImage, Shown,
 };
@@ -27,8 +28,8 @@ pub struct RenderRequests {
     pub still: Option<StillRequest>,
     /// Whether the second picture is the main one without denoising.
     pub raw: bool,
-    /// The gain of the difference of both pictures, 1 or more; `None` if it is not shown.
-    pub difference: Option<f32>,
+    /// The difference of both pictures; `None` if it is not shown.
+    pub difference: Option<ErrorMap>,
     /// Whether something moves, so that a preview is preferred to a full-resolution picture.
     pub coarse: bool,
     /// Whether rendering is paused.
@@ -402,12 +403,10 @@ impl RenderWorker {
             }
             is_busy = self.images.iter().any(has_work);
         }
-        let [_, beside, main] = &self.images;
-        let second = match requests.raw {
-            true => (main.shown_raw(), main.frames_shown()),
-            false => (beside.shown(), beside.frames_shown()),
-        };
-        if let Err(error) = self.compared.compare(requests.difference, main, second) {
+        let [_, beside, main] = &mut self.images;
+        let outcome =
+            (self.compared).compare(requests.difference, [beside, main], requests.raw, is_busy);
+        if let Err(error) = outcome {
             return (Err(ImageError::from(error).into()), unanswered, answers);
         }
         (Ok(is_busy), unanswered, answers)

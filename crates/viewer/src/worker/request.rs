@@ -2,7 +2,7 @@
 
 use glimray_app::layers::PictureLayer;
 use glimray_render::pack::PackedScene;
-use glimray_render::{ExecutionPolicy, Integrator, RenderSettings, Tone};
+use glimray_render::{ExecutionPolicy, Integrator, RenderSettings, Shows, Tone};
 use glimray_scene::{Background, Camera, Scene};
 use std::sync::Arc;
 
@@ -29,6 +29,8 @@ pub struct RenderRequest {
     pub layer: PictureLayer,
     /// Whether path-traced coarse pictures are denoised although the picture in full is not.
     pub denoises_previews: bool,
+    /// Whether the luminance of a picture of radiance is shown in false colours.
+    pub false_color: bool,
 }
 
 impl PartialEq for RenderRequest {
@@ -36,8 +38,7 @@ impl PartialEq for RenderRequest {
         self.shows_same(other)
             && self.settings == other.settings
             && self.policy == other.policy
-            && self.tone == other.tone
-            && self.layer == other.layer
+            && self.is_developed_like(other)
             && self.denoises_previews == other.denoises_previews
     }
 }
@@ -47,6 +48,24 @@ impl RenderRequest {
     pub fn denoises_coarse(&self) -> bool {
         let is_noisy = self.settings.integrator == Integrator::Path;
         is_noisy && (self.tone.denoise || self.denoises_previews)
+    }
+
+    /// Whether both put the same film on the screen in the same way.
+    pub fn is_developed_like(&self, other: &Self) -> bool {
+        self.tone == other.tone
+            && self.layer == other.layer
+            && self.false_color == other.false_color
+    }
+
+    /// Whether false colours are shown.
+    pub fn is_false_color(&self) -> bool {
+        self.false_color && self.is_radiance()
+    }
+
+    /// Whether the picture is one of radiance, to which the tone mapping applies.
+    pub fn is_radiance(&self) -> bool {
+        self.layer == PictureLayer::Beauty
+            && self.settings.integrator.entry().shows == Shows::Radiance
     }
 
     /// Whether both show the same scene and view.

@@ -47,6 +47,7 @@ impl Easel {
             tone: Tone::LINEAR,
             layer: glimray_app::layers::PictureLayer::Beauty,
             denoises_previews: false,
+            false_color: false,
         });
         let easel = Self {
             gpu,

@@ -10,7 +10,7 @@ use glimray::scene::Background;
 use glimray_viewer::actions::comparing;
 use glimray_viewer::model::file_dialog::{FileDialogs, Reply};
 use glimray_viewer::model::gallery::MOST;
-use glimray_viewer::model::view_settings::{Sharing, Source};
+use glimray_viewer::model::view_settings::{ErrorMap, Sharing, Source};
 use glimray_viewer::worker::comparison::ShownDifference;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -89,7 +89,7 @@ fn a_picture_does_not_differ_from_its_snapshot_however_it_is_developed() {
     keep(&mut window);
     let name = window.session().comparing.gallery.all()[0].name.clone();
     assert_eq!(name, "Snapshot 1");
-    compare(&mut window, Sharing::Difference(100.0));
+    compare(&mut window, Sharing::Difference(ErrorMap::absolute(100.0)));
     let before = picture_pixels(&window);
     for exposure in [0.0, 1.5] {
         window.session().view.tone.exposure_ev = exposure;
@@ -141,7 +141,7 @@ fn a_snapshot_outlasts_edits_and_the_wipe_shows_it() {
     window.settle();
     keep(&mut window);
     window.session().view.region = None;
-    compare(&mut window, Sharing::Difference(1.0));
+    compare(&mut window, Sharing::Difference(ErrorMap::absolute(1.0)));
     assert_eq!(
         window
             .session()
@@ -163,7 +163,7 @@ fn a_difference_of_two_view_modes_is_that_of_their_pixels() {
     window.harness.key_press(Key::Y);
     window.settle();
     let comparison = window.session().view.comparison.expect("a comparison");
-    assert_eq!(comparison.gain(), Some(4.0));
+    assert_eq!(comparison.error_map(), Some(ErrorMap::absolute(4.0)));
     let render = window.harness.state().render_thread();
     let beside = glimray_viewer::worker::progressive_image::PictureSlot::Beside;
     let beside = render.shown(beside).and_then(|shown| shown.screen);
@@ -200,7 +200,7 @@ fn a_reference_of_another_size_is_scaled_to_the_pictures_height() {
     assert_eq!(still_pixels(&window).size, (32, 24));
     assert_eq!(color_at(&mut window, 0.75), [51, 102, 153]);
     assert_eq!(color_at(&mut window, 0.25), [255; 3]);
-    compare(&mut window, Sharing::Difference(1.0));
+    compare(&mut window, Sharing::Difference(ErrorMap::absolute(1.0)));
     let white = difference_pixels(&window);
     assert_eq!(white.size, (64, 48));
     assert!(white.rgb.iter().all(|rgb| *rgb == [204, 153, 102]));
@@ -237,7 +237,7 @@ fn radiance_from_a_file_is_developed_like_the_picture() {
     let radiance = ::image::Rgb32FImage::from_pixel(64, 48, ::image::Rgb([0.25, 0.5, 4.0]));
     radiance.save(&path).expect("an EXR");
     comparing::open_reference(&mut window.session(), path);
-    compare(&mut window, Sharing::Difference(1.0));
+    compare(&mut window, Sharing::Difference(ErrorMap::absolute(1.0)));
     window.session().view.next_tone_curve();
     window.settle();
     assert_eq!(difference(&window).rmse, 0.0);
@@ -400,7 +400,7 @@ fn a_snapshot_of_a_denoised_picture_is_denoised_and_it_compares_with_the_raw_one
     keep(&mut window);
     let detail = window.session().comparing.gallery.all()[0].detail.clone();
     assert!(detail.ends_with("denoised"), "{detail}");
-    compare(&mut window, Sharing::Difference(100.0));
+    compare(&mut window, Sharing::Difference(ErrorMap::absolute(100.0)));
     let shown = difference(&window);
     assert_eq!((shown.rmse, shown.mean), (0.0, 0.0));
     still_pixels(&window).assert_same(&denoised, "the snapshot");

@@ -105,6 +105,7 @@ fn request(scene: Arc<Scene>) -> RenderRequest {
         tone: Tone::LINEAR,
         layer: glimray_app::layers::PictureLayer::Beauty,
         denoises_previews: false,
+        false_color: false,
     }
 }
 

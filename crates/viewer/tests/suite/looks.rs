@@ -11,7 +11,7 @@ use glimray_viewer::actions::inspector;
 use glimray_viewer::model::objects::Id;
 use glimray_viewer::model::preferences::Theme;
 use glimray_viewer::model::tool::Tool;
-use glimray_viewer::model::view_settings::Sharing;
+use glimray_viewer::model::view_settings::{ErrorMap, Sharing};
 use glimray_viewer::state::layout::Panel;
 
 /// Other drivers round otherwise along edges: this many pixels of 700,000 may differ.
@@ -145,7 +145,10 @@ fn a_picture_is_compared_with_its_snapshot_before_an_edit() {
         window.session().messages.dismiss(&message.text);
     }
     check(&mut window, "compare_wipe");
-    window.session().view.compare(Sharing::Difference(2.0));
+    window
+        .session()
+        .view
+        .compare(Sharing::Difference(ErrorMap::absolute(2.0)));
     check(&mut window, "compare_difference");
     window.harness.get_by_label("Log").scroll_to_me();
     window.settle();

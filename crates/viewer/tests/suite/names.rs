@@ -9,7 +9,7 @@ use glimray_viewer::actions::inspector;
 use glimray_viewer::actions::saving;
 use glimray_viewer::model::objects::Id;
 use glimray_viewer::model::tool::Tool;
-use glimray_viewer::model::view_settings::Sharing;
+use glimray_viewer::model::view_settings::{ErrorMap, Sharing};
 use glimray_viewer::state::dialogs::Dialog;
 use glimray_viewer::state::files::Intent;
 
@@ -98,7 +98,7 @@ fn what_is_in_the_panels_has_a_name() {
     for sharing in [
         Sharing::Wipe(0.5),
         Sharing::SideBySide,
-        Sharing::Difference(4.0),
+        Sharing::Difference(ErrorMap::absolute(4.0)),
     ] {
         window.session().view.compare(sharing);
         check(&mut window, &format!("{sharing:?}"));
@@ -106,7 +106,10 @@ fn what_is_in_the_panels_has_a_name() {
     comparing::keep_snapshot(&mut window.session());
     window.settle();
     window.session().view.comparison = None;
-    window.session().view.compare(Sharing::Difference(4.0));
+    window
+        .session()
+        .view
+        .compare(Sharing::Difference(ErrorMap::absolute(4.0)));
     check(&mut window, "a snapshot");
 }
 

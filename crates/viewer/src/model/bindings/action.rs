@@ -162,6 +162,7 @@ actions! {
         IntegratorSamples "integrator-samples" Press "Show samples per pixel",
         NextLayer "next-layer" Press "Show the next layer of the picture",
         PreviousLayer "previous-layer" Press "Show the previous layer of the picture",
+        FalseColor "false-color" Press "Show luminance in false colours, by stops around middle grey",
         SplitWipe "split-wipe" Press "Compare two pictures with a wipe",
         SideBySide "side-by-side" Press "Compare two pictures side by side",
         ShowDifference "show-difference" Press "Show the difference of two pictures",
@@ -169,6 +170,14 @@ actions! {
         KeepSnapshot "keep-snapshot" Press "Keep a snapshot of the picture to compare with",
         FlipKept "flip-kept" Press "Flip between the picture and the one that was kept",
         NextKept "next-kept" Press "Show the next kept picture in place of this one",
+        Kept1 "kept-one" Press "Flip to the picture that is kept under 1",
+        Kept2 "kept-two" Press "Flip to the picture that is kept under 2",
+        Kept3 "kept-three" Press "Flip to the picture that is kept under 3",
+        Kept4 "kept-four" Press "Flip to the picture that is kept under 4",
+        Kept5 "kept-five" Press "Flip to the picture that is kept under 5",
+        Kept6 "kept-six" Press "Flip to the picture that is kept under 6",
+        Kept7 "kept-seven" Press "Flip to the picture that is kept under 7",
+        Kept8 "kept-eight" Press "Flip to the picture that is kept under 8",
         OpenReference "open-reference" Press "Open a reference picture to compare with",
         ExposureUp "exposure-up" Press "Increase exposure by a third of a stop",
         ExposureDown "exposure-down" Press "Decrease exposure by a third of a stop",
@@ -243,6 +252,18 @@ actions! {
     }
 }
 
+/// The actions that flip to kept pictures, by their numbers.
+const KEPT: [Action; 8] = [
+    Action::Kept1,
+    Action::Kept2,
+    Action::Kept3,
+    Action::Kept4,
+    Action::Kept5,
+    Action::Kept6,
+    Action::Kept7,
+    Action::Kept8,
+];
+
 impl Action {
     /// All, in the order of the table.
     pub const ALL: &[Self] = &in_order();
@@ -255,6 +276,20 @@ impl Action {
     /// The integrator that it switches to.
     pub fn integrator(self) -> Option<Integrator> {
         Integrator::named(self.name().strip_prefix("integrator-")?)
+    }
+
+    /// The action that flips to the kept picture of this number.
+    pub fn kept(number: usize) -> Option<Self> {
+        number
+            .checked_sub(1)
+            .and_then(|index| KEPT.get(index).copied())
+    }
+
+    /// The number of the kept picture that it flips to.
+    pub fn kept_number(self) -> Option<usize> {
+        KEPT.iter()
+            .position(|kept| *kept == self)
+            .map(|index| index + 1)
     }
 
     /// The action with that name in settings files.

@@ -114,6 +114,7 @@ pub(super) const GLIMRAY: &str = "
     integrator-path: Shift+8
     next-layer: Shift+PageDown
     previous-layer: Shift+PageUp
+    false-color: Shift+Y
     split-wipe: X
     side-by-side: Shift+X
     show-difference: Y
@@ -121,6 +122,14 @@ pub(super) const GLIMRAY: &str = "
     keep-snapshot: Shift+K
     flip-kept: F6
     next-kept: Shift+F6
+    kept-one: Alt+1
+    kept-two: Alt+2
+    kept-three: Alt+3
+    kept-four: Alt+4
+    kept-five: Alt+5
+    kept-six: Alt+6
+    kept-seven: Alt+7
+    kept-eight: Alt+8
     open-reference: Ctrl+Shift+O
     exposure-up: Equals, Plus, Shift+Plus
     exposure-down: Minus
@@ -215,6 +224,14 @@ pub(super) const BLENDER: &str = "
     integrator-heat: Alt+6
     integrator-samples: Alt+7
     integrator-path: Alt+8
+    kept-one: Shift+Alt+1
+    kept-two: Shift+Alt+2
+    kept-three: Shift+Alt+3
+    kept-four: Shift+Alt+4
+    kept-five: Shift+Alt+5
+    kept-six: Shift+Alt+6
+    kept-seven: Shift+Alt+7
+    kept-eight: Shift+Alt+8
     split-wipe: W
     side-by-side: Shift+W
     swap-sides: Alt+W

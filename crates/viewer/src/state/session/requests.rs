@@ -26,13 +26,14 @@ impl Session {
             let main = self.render_request(self.view.settings.integrator);
             requests.pictures[PictureSlot::Main as usize] = main.map(|request| RenderRequest {
                 layer: self.view.layer,
+                false_color: self.view.false_color,
                 ..request
             });
             if let Some(comparison) = self.view.comparison.filter(|_| self.scene().is_some()) {
                 requests.pictures[PictureSlot::Beside as usize] = (comparison.integrator())
                     .and_then(|integrator| self.render_request(integrator));
                 requests.still = self.still().map(|still| self.still_request(still));
-                requests.difference = comparison.gain();
+                requests.difference = comparison.error_map();
                 requests.raw = comparison.source == Source::Raw;
             }
         }
@@ -53,6 +54,7 @@ impl Session {
             tone: self.view.tone_of(integrator),
             layer: PictureLayer::Beauty,
             denoises_previews: self.preferences.denoises_previews,
+            false_color: false,
         })
     }
 
@@ -100,6 +102,7 @@ impl Session {
             tone: self.view.tone_of(integrator),
             layer: PictureLayer::Beauty,
             denoises_previews: self.preferences.denoises_previews,
+            false_color: false,
         })
     }
 }

@@ -1,13 +1,14 @@
 //! The menu bar, and below it the error of the scene's file.
 
 use crate::actions::commands;
+use crate::actions::comparing;
 use crate::actions::files;
 use crate::actions::files::cameras;
 use crate::actions::tools;
 use crate::model::bindings::Action as A;
 use crate::model::document::Document;
 use crate::model::tool::{Tool, ToolMenu};
-use crate::model::view_settings::Sharing;
+use crate::model::view_settings::{ErrorMap, Measure, Sharing};
 use crate::state::dialogs::Dialog;
 use crate::state::layout::{Layout, Panel};
 use crate::ui::context::PanelContext;
@@ -96,6 +97,19 @@ impl Menu<'_, '_> {
                 let is_active = tools::is_active(self.context.session, tool);
                 self.tick(is_active, tool.entry().title, A::Tool(tool));
             }
+        }
+    }
+
+    /// The kept pictures, the one that is flipped to with a check mark.
+    fn kept(&mut self) {
+        let session = &self.context.session;
+        let shown = comparing::flipped(session);
+        let stills = session.comparing.gallery.all().iter();
+        let entries: Vec<_> = stills
+            .filter_map(|still| Some((still.id, still.name.clone(), A::kept(still.number)?)))
+            .collect();
+        for (id, name, action) in entries {
+            self.tick(shown == Some(id), &format!("Flip to {name}"), action);
         }
     }
 
@@ -261,7 +275,7 @@ fn render(menu: &mut Menu) {
     let integrator = look.settings.integrator;
     let comparison = look.comparison;
     let sharing = comparison.map(|comparison| comparison.sharing);
-    let is_paused = look.paused;
+    let (is_paused, is_false_color) = (look.paused, look.false_color);
     for action in A::ALL {
         if let Some(shown) = action.integrator() {
             menu.tick(shown == integrator, shown.entry().title, *action);
@@ -269,18 +283,21 @@ fn render(menu: &mut Menu) {
     }
     menu.entry("Next layer", A::NextLayer);
     menu.entry("Previous layer", A::PreviousLayer);
+    menu.tick(is_false_color, "False colour", A::FalseColor);
     menu.line();
     let is_wipe = matches!(sharing, Some(Sharing::Wipe(_)));
     menu.tick(is_wipe, "Compare with a wipe", A::SplitWipe);
     let is_beside = sharing == Some(Sharing::SideBySide);
     menu.tick(is_beside, "Compare side by side", A::SideBySide);
-    let is_difference = matches!(sharing, Some(Sharing::Difference(_)));
+    let difference = Sharing::Difference(ErrorMap::new(Measure::Absolute));
+    let is_difference = sharing.is_some_and(|sharing| sharing.is_like(difference));
     menu.tick(is_difference, "Show difference", A::ShowDifference);
     let can_swap = comparison.is_some_and(|comparison| comparison.integrator().is_some());
     menu.entry_if(can_swap, "Swap sides", A::SwapSides);
     menu.entry_if(has_scene, "Keep snapshot", A::KeepSnapshot);
     menu.entry("Flip to kept picture", A::FlipKept);
     menu.entry("Next kept picture", A::NextKept);
+    menu.kept();
     menu.entry_if(has_scene, "Open reference picture…", A::OpenReference);
     menu.line();
     menu.entry("Increase exposure", A::ExposureUp);

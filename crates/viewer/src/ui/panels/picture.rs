@@ -25,6 +25,7 @@ use crate::ui::{self, overlay};
 use crate::worker::progressive_image::PictureSlot;
 use crate::worker::progressive_image::Shown;
 use eframe::egui::{self, Align2, Color32, Pos2, Rect, Vec2};
+use glimray_render::Shows;
 
 /// Texture coordinates of a whole texture.
 const WHOLE: Rect = Rect {
@@ -148,13 +149,16 @@ fn legends(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewp
     let painter = ui.painter_at(space);
     let look = &context.session.view;
     let comparison = look.comparison;
-    if comparison.is_some_and(|comparison| comparison.gain().is_some()) {
+    if comparison.is_some_and(|comparison| comparison.error_map().is_some()) {
         return;
     }
     let rects = viewports.map(|viewport| viewport.rect.intersect(space));
     if let Some(shown) = context.shown(PictureSlot::Main) {
         let integrator = look.settings.integrator;
-        legend::legend(ui, &painter, &shown, integrator, (rects[0], false));
+        match look.false_color && integrator.entry().shows == Shows::Radiance {
+            true => legend::stops_of_light(ui, &painter, (rects[0], false)),
+            false => legend::legend(ui, &painter, &shown, integrator, (rects[0], false)),
+        }
     }
     let second = comparison.and_then(|comparison| comparison.integrator());
     if let (Some(integrator), Some(shown)) = (second, context.shown(PictureSlot::Beside)) {

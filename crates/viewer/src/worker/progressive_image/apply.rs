@@ -61,7 +61,7 @@ impl ProgressiveImage {
         let differs_in_size =
             request.settings.crop.is_none() && shares_rest(|before, now| before.size = now.size);
         self.stays_coarse = coarse;
-        if before.is_some_and(|b| b.tone != request.tone || b.layer != request.layer) {
+        if before.is_some_and(|b| !b.is_developed_like(request)) {
             self.is_shown = false;
             self.noise = Noise::default();
         }

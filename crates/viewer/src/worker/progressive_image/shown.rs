@@ -1,7 +1,9 @@
 //! The published picture and its progress.
 
 use super::ProgressiveImage;
-use glimray_render::{Screen, Stats};
+use crate::worker::comparison::linear;
+use glimray_render::{RenderError, Screen, Stats, Tone};
+use glimray_scene::image::{Image, ScreenImage};
 use std::sync::Arc;
 
 /// A published picture.
@@ -101,6 +103,41 @@ impl ProgressiveImage {
             trees_built: self.trees_built,
             adapter: self.adapter.clone(),
         })
+    }
+
+    /// The samples so far as linear values: radiance without exposure and tone curve, or else what is displayed, decoded. `raw`
+    /// leaves the denoising out. `None` before there are any.
+    pub fn linear(&mut self, raw: bool) -> Result<Option<Image>, RenderError> {
+        let (Some(renderer), Some(request)) = (&mut self.renderer, &self.request) else {
+            return Ok(None);
+        };
+        if request.is_radiance() {
+            let tone = Tone {
+                denoise: !raw && renderer.denoises(&request.tone),
+                ..Tone::LINEAR
+            };
+            let has_samples = renderer.samples_done() > 0;
+            return has_samples.then(|| renderer.develop(&tone)).transpose();
+        }
+        let Some(shown) = self.shown() else {
+            return Ok(None);
+        };
+        let Some(screen) = shown.screen.or(shown.under) else {
+            return Ok(None);
+        };
+        let ScreenImage {
+            width,
+            height,
+            pixels,
+        } = screen.read(&self.gpu)?;
+        let pixels = pixels
+            .iter()
+            .map(|pixel| pixel.map(|level| f32::from(level) / 255.0));
+        Ok(Some(linear(&Image {
+            width,
+            height,
+            pixels: pixels.collect(),
+        })))
     }
 
     /// The picture to draw without denoising.

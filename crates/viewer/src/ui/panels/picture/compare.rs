@@ -1,11 +1,12 @@
 //! The comparison of two pictures: layout, second picture, wipe line and labels.
 
-use crate::model::view_settings::{Comparison, Sharing, Source};
+use crate::model::view_settings::{Comparison, ErrorMap, Measure, Sharing, Source};
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::panels::icon;
 use crate::ui::panels::picture::caption::label;
+use crate::ui::panels::picture::legend;
 use crate::ui::panels::picture::{WHOLE, draw};
 use crate::ui::panels::setting_rows::title;
 use crate::worker::progressive_image::PictureSlot;
@@ -42,7 +43,7 @@ pub fn second(
     let painter = painter.with_clip_rect(clip(comparison.sharing, space, viewport));
     let is_exact = viewport.is_exact(painter.pixels_per_point());
     let is_zoomed = context.session.pixel_zoom.is_active();
-    if comparison.gain().is_some() {
+    if comparison.error_map().is_some() {
         if let Some(difference) = context.render.difference() {
             let is_part = difference.region != [0, 0, viewport.size.0, viewport.size.1];
             let rect = match is_part {
@@ -93,15 +94,10 @@ pub fn overlay(
     };
     let painter = ui.painter_at(space);
     let corners = match &mut comparison.sharing {
-        Sharing::Difference(gain) => {
-            let gain = *gain;
-            difference(
-                ui,
-                &painter,
-                context,
-                (names, gain),
-                viewports[0].rect.intersect(room),
-            );
+        Sharing::Difference(map) => {
+            let map = *map;
+            let picture = viewports[0].rect.intersect(room);
+            difference(ui, &painter, context, (names, map), picture);
             return;
         }
         Sharing::Wipe(share) => {
@@ -126,6 +122,13 @@ pub fn overlay(
         Align2::LEFT_TOP
     };
     let [first, second] = names;
+    if let Sharing::Wipe(share) = comparison.sharing
+        && share <= 0.0
+    {
+        // The second picture hides the first.
+        label(&painter, corners[0], Align2::LEFT_TOP, second);
+        return;
+    }
     label(&painter, corners[0], Align2::LEFT_TOP, first);
     label(&painter, corners[1], right, second);
 }
@@ -145,26 +148,41 @@ fn second_name(session: &Session) -> String {
     }
 }
 
-/// Names both pictures and tells how much they differ.
+/// Names both pictures, tells how much they differ, and explains the colours.
 fn difference(
     ui: &egui::Ui,
     painter: &egui::Painter,
     context: &PanelContext,
-    ([first, second], gain): ([String; 2], f32),
+    ([first, second], map): ([String; 2], ErrorMap),
     picture: Rect,
 ) {
     let rect = picture.intersect(painter.clip_rect());
-    let gain = (gain * 10.0).round() / 10.0;
-    let names = format!("{first} and {second}: difference × {gain}");
+    let title = match map.measure {
+        Measure::Flip => "FLIP".to_owned(),
+        measure => measure.title().to_lowercase(),
+    };
+    let gain = match (map.gain * 10.0).round() / 10.0 {
+        gain if gain > 1.0 || map.measure == Measure::Absolute => format!(" × {gain}"),
+        _ => String::new(),
+    };
+    let names = format!("{first} and {second}: {title}{gain}");
     label(painter, rect.left_top(), Align2::LEFT_TOP, names);
-    let Some(shown) = context.render.difference() else {
+    let shown = context.render.difference();
+    // The last one may be of another measure.
+    let Some(shown) = shown.filter(|shown| shown.measure == map.measure) else {
         return;
     };
     let (rmse, mean) = (shown.rmse, shown.mean);
-    let told = format!(
-        "RMSE {rmse:.4} ({:.2} levels), mean {mean:.4}",
-        rmse * 255.0
-    );
+    let told = match map.measure {
+        Measure::Absolute => {
+            let levels = rmse * 255.0;
+            format!("RMSE {rmse:.4} ({levels:.2} levels), mean {mean:.4}")
+        }
+        measure => {
+            let name = measure.mean();
+            format!("{name} {mean:.6}")
+        }
+    };
     let rect = label(
         painter,
         rect.left_bottom(),
@@ -175,10 +193,17 @@ fn difference(
     let response = ui.interact(rect, id, egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &told));
     icon::named(&response, &told);
-    response.on_hover_text(
-        "Differences of the displayed colours, without the gain: root mean square and mean, as fractions of \
-         white",
-    );
+    response.on_hover_text(match map.measure {
+        Measure::Absolute => {
+            "Differences of the displayed colours, without the gain: root mean square and mean, as fractions of \
+             white"
+                .to_owned()
+        }
+        measure => format!("{}. The mean of all pixels, without the gain", measure.help()),
+    });
+    if map.measure != Measure::Absolute {
+        legend::errors(ui, painter, map, picture);
+    }
 }
 
 /// The wipe line: dragged, or moved by arrow keys while it has the focus.

@@ -4,7 +4,7 @@
 use crate::model::bindings::Action;
 use crate::model::document::Document;
 use crate::model::tool::{Tool, ToolMenu};
-use crate::model::view_settings::{GAIN, Sharing};
+use crate::model::view_settings::Sharing;
 use crate::state::session::Session;
 use crate::ui::panels::render::view_mode;
 use crate::ui::panels::sign::{SIDE, Sign, button};
@@ -160,20 +160,13 @@ fn compare(ui: &mut Ui, session: &mut Session) {
     let response = response.on_hover_text("Show a second picture");
     let mut chosen = None;
     Popup::menu(&response).show(|ui| {
-        let is_wipe = matches!(sharing, Some(Sharing::Wipe(_)));
-        let is_difference = matches!(sharing, Some(Sharing::Difference(_)));
-        for (is_so, text, way) in [
-            (sharing.is_none(), "Off", None),
-            (is_wipe, "Split wipe", Some(Sharing::Wipe(0.5))),
-            (
-                sharing == Some(Sharing::SideBySide),
-                "Side by side",
-                Some(Sharing::SideBySide),
-            ),
-            (is_difference, "Difference", Some(Sharing::Difference(GAIN))),
-        ] {
+        if ui.selectable_label(sharing.is_none(), "Off").clicked() {
+            chosen = Some(None);
+        }
+        for (text, way) in Sharing::offered() {
+            let is_so = sharing.is_some_and(|now| now.is_like(way));
             if ui.selectable_label(is_so, text).clicked() && !is_so {
-                chosen = Some(way);
+                chosen = Some(Some(way));
             }
         }
     });

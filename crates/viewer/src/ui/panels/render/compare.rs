@@ -1,9 +1,11 @@
 //! The settings of a comparison, and the stills to compare with.
 
+mod kept;
+
 use crate::actions::comparing;
 use crate::model::bindings::Action;
 use crate::model::gallery::{Still, StillId};
-use crate::model::view_settings::{Comparison, GAIN, MAX_GAIN, Sharing, Source};
+use crate::model::view_settings::{Comparison, ErrorMap, MAX_GAIN, Sharing, Source};
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::panels::row::row;
@@ -21,13 +23,14 @@ const RAW: &str = "Without denoising";
 pub fn compare(ui: &mut Ui, context: &mut PanelContext) {
     layout(ui, context);
     if let Some(comparison) = context.session.view.comparison {
-        if let Sharing::Difference(gain) = comparison.sharing {
-            set_gain(ui, context, gain);
+        if let Sharing::Difference(map) = comparison.sharing {
+            set_gain(ui, context, map);
         }
         second(ui, context, comparison);
         size(ui, context);
     }
     stills(ui, context);
+    kept::list(ui, context);
 }
 
 /// A tooltip with the shortcut of a command.
@@ -50,29 +53,29 @@ fn layout(ui: &mut Ui, context: &mut PanelContext) {
     let mut way = look.comparison.map(|comparison| comparison.sharing);
     let before = way;
     line(ui, ("Compare", &tip), &mut way, &None, |ui, way| {
-        let name = |way: Option<Sharing>| match way {
-            None => "Off",
-            Some(Sharing::Wipe(_)) => "Split wipe",
-            Some(Sharing::SideBySide) => "Side by side",
-            Some(Sharing::Difference(_)) => "Difference",
-        };
-        let ways = [
-            None,
-            Some(Sharing::Wipe(0.5)),
-            Some(Sharing::SideBySide),
-            Some(Sharing::Difference(GAIN)),
-        ];
-        egui::ComboBox::from_id_salt("compare")
-            .selected_text(name(*way))
+        let is_like = |other: Sharing| way.is_some_and(|way| way.is_like(other));
+        let mut ways = Sharing::offered();
+        let name = ways.find(|(_, other)| is_like(*other));
+        let mut chosen = None;
+        let list = egui::ComboBox::from_id_salt("compare")
+            .truncate()
+            .selected_text(name.map_or("Off", |(name, _)| name))
             .show_ui(ui, |ui| {
-                for other in ways {
-                    let is_chosen = name(other) == name(*way);
-                    if ui.selectable_label(is_chosen, name(other)).clicked() && !is_chosen {
-                        *way = other;
+                if ui.selectable_label(way.is_none(), "Off").clicked() {
+                    chosen = Some(None);
+                }
+                for (name, other) in Sharing::offered() {
+                    let mut entry = ui.selectable_label(is_like(other), name);
+                    if let Sharing::Difference(map) = other {
+                        entry = entry.on_hover_text(map.measure.help());
+                    }
+                    if entry.clicked() && !is_like(other) {
+                        chosen = Some(Some(other));
                     }
                 }
-            })
-            .response
+            });
+        *way = chosen.unwrap_or(*way);
+        list.response
     });
     if way != before {
         match way {
@@ -82,15 +85,16 @@ fn layout(ui: &mut Ui, context: &mut PanelContext) {
     }
 }
 
-fn set_gain(ui: &mut Ui, context: &mut PanelContext, mut gain: f32) {
-    let tip = "Factor on the difference of the displayed colours, 1 to 100";
-    line(ui, ("Gain", tip), &mut gain, &GAIN, |ui, gain| {
-        let value = egui::DragValue::new(gain).range(1.0..=MAX_GAIN);
+fn set_gain(ui: &mut Ui, context: &mut PanelContext, mut map: ErrorMap) {
+    let tip = format!("Factor on the error, 1 to 100. {}", map.measure.help());
+    let usual = ErrorMap::new(map.measure);
+    line(ui, ("Gain", &tip), &mut map, &usual, |ui, map| {
+        let value = egui::DragValue::new(&mut map.gain).range(1.0..=MAX_GAIN);
         let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
         ui.add_sized(size, value.speed(0.1).max_decimals(1).suffix(" ×"))
     });
     if let Some(comparison) = &mut context.session.view.comparison {
-        comparison.sharing = Sharing::Difference(gain);
+        comparison.sharing = Sharing::Difference(map);
     }
 }
 
