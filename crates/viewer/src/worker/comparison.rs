@@ -1,11 +1,10 @@
 //! The second picture of a comparison where it is not rendered, and the difference of both pictures.
 
-use crate::worker::error_map::{self, ErrorMap, Measure};
+use crate::worker::error_map::{self, ErrorMap, Measure, linear};
 use crate::worker::progressive_image::{ProgressiveImage, Shown};
 use glimray_render::gpu::Gpu;
 use glimray_render::{RenderError, Screen, Tone};
 use glimray_scene::image::{Difference, Errors, Image, Placed, ScreenImage};
-use glimray_scene::linear_from_srgb;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -292,18 +291,6 @@ impl Compared {
     fn read(&self, shown: &Shown) -> Result<Option<ScreenImage>, RenderError> {
         let screen = shown.screen.as_ref().or(shown.under.as_ref());
         screen.map(|screen| screen.read(&self.gpu)).transpose()
-    }
-}
-
-/// Display values as linear ones.
-pub(super) fn linear(displayed: &Image) -> Image {
-    let decode = |value: f32| linear_from_srgb(value.into()) as f32;
-    let pixels = displayed.pixels.iter();
-    Image {
-        pixels: pixels
-            .map(|&[r, g, b, opacity]| [decode(r), decode(g), decode(b), opacity])
-            .collect(),
-        ..*displayed
     }
 }
 

@@ -3,6 +3,7 @@
 use glimray_app::flip::{self, Flip};
 use glimray_app::legend;
 use glimray_scene::image::{Errors, Image, Placed, ScreenImage, pairs};
+use glimray_scene::linear_from_srgb;
 
 /// A measure of the difference of two pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,6 +109,18 @@ impl ErrorMap {
             Measure::RelativeSquared => Errors::relative_squared(first, second),
             _ => Errors::relative(first, second),
         }
+    }
+}
+
+/// Display values as linear ones.
+pub(super) fn linear(displayed: &Image) -> Image {
+    let decode = |value: f32| linear_from_srgb(value.into()) as f32;
+    let pixels = displayed.pixels.iter();
+    Image {
+        pixels: pixels
+            .map(|&[r, g, b, opacity]| [decode(r), decode(g), decode(b), opacity])
+            .collect(),
+        ..*displayed
     }
 }
 

@@ -4,7 +4,6 @@ use crate::output::OutputError;
 use crate::output::encode::level;
 use ::image::{DynamicImage, ImageReader};
 use glimray_scene::image::Image;
-use glimray_scene::srgb_from_linear;
 use std::path::Path;
 
 /// An image of 8 bits per channel, sRGB-encoded.
@@ -63,4 +62,13 @@ pub fn read_frame(path: &Path) -> Result<Picture8, OutputError> {
         height,
         pixels,
     })
+}
+
+/// IEC 61966-2-1.
+fn srgb_from_linear(linear: f32) -> f32 {
+    if linear <= 0.003_130_8 {
+        linear * 12.92
+    } else {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    }
 }

@@ -1,7 +1,7 @@
 //! The published picture and its progress.
 
 use super::ProgressiveImage;
-use crate::worker::comparison::linear;
+use crate::worker::error_map::linear;
 use glimray_render::{RenderError, Screen, Stats, Tone};
 use glimray_scene::image::{Image, ScreenImage};
 use std::sync::Arc;
