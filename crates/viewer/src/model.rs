@@ -13,6 +13,7 @@ pub mod handles;
 pub mod histogram;
 pub mod listing;
 pub mod loader;
+pub mod material_presets;
 pub mod messages;
 pub mod modal;
 pub mod objects;

@@ -27,6 +27,7 @@ mod look;
 mod looks;
 mod making;
 mod material;
+mod material_presets;
 mod modal;
 mod names;
 mod navigation;

@@ -178,6 +178,7 @@ fn change(window: &mut Window, (role, label): &Control) {
                 "Fresnel's equations",
                 "Sum",
                 "Blend",
+                "Gold",
             ];
             let wanted = options
                 .iter()

@@ -2,6 +2,7 @@
 
 use crate::actions::adding;
 use crate::model::adding::Addition;
+use crate::model::material_presets::MaterialPreset;
 use crate::state::session::Session;
 use eframe::egui::containers::menu::menu_style;
 use eframe::egui::{self, LayerId, Popup, PopupKind, Ui};
@@ -14,11 +15,23 @@ pub fn entries(ui: &mut Ui, session: &mut Session) {
         list(ui, session, &Addition::LIGHTS);
         ui.separator();
         list(ui, session, &[Addition::Camera]);
+        ui.menu_button("Material", |ui| materials(ui, session));
         if ui.button("Model from a file…").clicked() {
             ui.close();
             adding::ask_model(session, ui.ctx());
         }
     });
+}
+
+/// The ready-made materials.
+fn materials(ui: &mut Ui, session: &mut Session) {
+    let tip = "Add this material. The selected objects get it";
+    for preset in MaterialPreset::ALL {
+        if ui.button(preset.title()).on_hover_text(tip).clicked() {
+            ui.close();
+            adding::add_material(session, preset);
+        }
+    }
 }
 
 fn list(ui: &mut Ui, session: &mut Session, additions: &[Addition]) {

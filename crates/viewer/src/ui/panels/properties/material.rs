@@ -2,11 +2,12 @@
 
 use super::material_rows::{NORMAL_MAP, Part, TextureRow, color, number, textures, with};
 use super::metallic_roughness;
+use crate::model::material_presets::MaterialPreset;
 use crate::model::objects;
 use crate::model::objects::Id;
 use crate::state::session::Session;
 use crate::ui::panels::icon;
-use crate::ui::panels::properties::fields::{Fields, Limits};
+use crate::ui::panels::properties::fields::{Change, Fields, Limits};
 use glam::Vec3;
 use glimray_scene::{Bsdf, Fresnel, Material, MaterialProperty, Mixing, ObjectRef, Phong, Target};
 
@@ -17,6 +18,7 @@ const FOLLOWS: &str = "Ambient follows diffuse";
 pub fn show(fields: &mut Fields, index: usize) {
     let scene = fields.scene;
     let material = &scene.materials[index];
+    presets(fields, index);
     match &material.bsdf {
         Bsdf::Phong(phong) => {
             local_shading(fields, index, phong);
@@ -38,6 +40,22 @@ pub fn show(fields: &mut Fields, index: usize) {
         }
     }
     textures(fields, index, TEXTURES);
+}
+
+/// The presets. A material with other parameters than all of them is shown as a custom one.
+fn presets(fields: &mut Fields, index: usize) {
+    let now = MaterialPreset::of(&fields.scene.materials[index]);
+    let custom = now.is_none().then_some((None, "Custom"));
+    let presets = MaterialPreset::ALL.map(|preset| (Some(preset), preset.title()));
+    let options: Vec<_> = custom.into_iter().chain(presets).collect();
+    let tip = "Replace all that follows by a ready-made material. The name stays.";
+    if let Some(Some(preset)) = fields.choice_value(("Preset", tip), now, &options) {
+        let name = preset.title().to_lowercase();
+        fields.changes.push(Change {
+            name: format!("apply {name} to {}", fields.subject),
+            apply: Box::new(move |scene| preset.apply(scene, index)),
+        });
+    }
 }
 
 fn local_shading(fields: &mut Fields, index: usize, phong: &Phong) {
