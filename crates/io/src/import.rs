@@ -67,7 +67,7 @@ pub use gltf::{GLTF_EXTENSIONS, Support, gltf_properties};
 pub use options::{Axis, Baking, Environment, EnvironmentSource, Ground, Options, Staging};
 #[cfg(not(target_arch = "wasm32"))]
 pub use picture::smaller_pictures;
-pub use picture::{Pixels, pixels};
+pub use picture::{Meaning, Pixels, pixels};
 pub use resolver::{FileError, Memory, Resolver};
 pub use stage::{framed_camera, is_framed};
 #[cfg(not(target_arch = "wasm32"))]
@@ -228,10 +228,19 @@ fn finish(scene: &mut Scene, options: &Options) {
 /// The file is missing, unreadable, too large, or not a supported image.
 #[cfg(not(target_arch = "wasm32"))]
 pub fn picture(path: &Path) -> Result<Arc<Picture>, ImportError> {
+    Ok(texture(path, Meaning::Color)?.0)
+}
+
+/// Reads the image file at `path` for a texture whose values mean this, and notes on what is wrong with it.
+///
+/// # Errors
+/// As [`picture()`].
+#[cfg(not(target_arch = "wasm32"))]
+pub fn texture(path: &Path, meaning: Meaning) -> Result<(Arc<Picture>, Vec<String>), ImportError> {
     let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let folder = Folder::of(&whole)?;
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
-    named_picture(&folder, &name, path)
+    named_picture(&folder, &name, path, meaning)
 }
 
 /// Reads the equirectangular panorama at `path`, as [`Environment`] names one, and notes on what is wrong with it.
@@ -249,26 +258,30 @@ pub fn environment(path: &Path) -> Result<(Arc<Picture>, Vec<String>), ImportErr
 /// # Errors
 /// See [`picture()`].
 pub fn picture_from(resolver: &dyn Resolver, name: &str) -> Result<Arc<Picture>, ImportError> {
-    named_picture(resolver, name, Path::new(name))
+    let (picture, _) = named_picture(resolver, name, Path::new(name), Meaning::Color)?;
+    Ok(picture)
 }
 
-/// Reads the image `name`, which errors show as `path`.
+/// Reads the image `name`, which errors show as `path`, and notes on it.
 fn named_picture(
     resolver: &dyn Resolver,
     name: &str,
     path: &Path,
-) -> Result<Arc<Picture>, ImportError> {
+    meaning: Meaning,
+) -> Result<(Arc<Picture>, Vec<String>), ImportError> {
     let files = Files::of(resolver);
     let quoted = source::quote(name.as_bytes());
+    let mut pictures = picture::Pictures::new(&Options::default());
     let read = match files.resolve(name) {
-        Ok(found) => picture::Pictures::new(&Options::default()).picture(
+        Ok(found) => pictures.picture(
             &picture::Place::File(found),
             &quoted,
-            picture::Role::Color,
+            meaning.into(),
             &picture::reader(&files),
         ),
         Err(refusal) => Err(picture::Refused::File(refusal)),
     };
+    let read = read.map(|picture| (picture, pictures.into_notes()));
     read.map_err(|refused| {
         refused.into_error(|why, todo| {
             ImportError::Malformed(fault("picture refused", path, &why, todo))

@@ -49,6 +49,27 @@ impl Default for UvTransform {
 }
 
 impl UvTransform {
+    /// The transform that [`Self::pattern_from_uv`] gives; `None` if it has shear or is no transform of u and v.
+    pub fn of(pattern_from_uv: DAffine3) -> Option<Self> {
+        let flip = DAffine3 {
+            translation: DVec3::Y,
+            ..DAffine3::from_scale(DVec3::new(1.0, -1.0, 1.0))
+        };
+        let placed = flip * pattern_from_uv * flip;
+        let [x, y] = [placed.matrix3.x_axis, placed.matrix3.y_axis];
+        let turned = DVec2::new(x.x, -x.y);
+        let scale = DVec2::new(turned.length(), y.length());
+        let is_mirrored = x.x * y.y - x.y * y.x < 0.0;
+        let found = Self {
+            offset: placed.translation.truncate(),
+            rotation: turned.y.atan2(turned.x),
+            scale: DVec2::new(scale.x, if is_mirrored { -scale.y } else { scale.y }),
+        };
+        let least = 1e-9 * (1.0 + scale.max_element() + found.offset.abs().max_element());
+        let is_it = found.pattern_from_uv().abs_diff_eq(pattern_from_uv, least);
+        is_it.then_some(found)
+    }
+
     /// From (u, v, 0) of a surface to those of the picture, both with v upwards. Numbers beyond ±10⁹ are clamped.
     pub fn pattern_from_uv(&self) -> DAffine3 {
         let limit = DVec2::splat(1e9);

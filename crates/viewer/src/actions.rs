@@ -20,6 +20,7 @@ pub mod saving;
 pub mod selecting;
 pub mod settings;
 mod surface;
+pub mod texturing;
 pub mod tools;
 pub mod update;
 pub mod walk;

@@ -24,6 +24,7 @@ pub mod recording;
 pub mod refinement;
 pub mod region;
 pub mod swatch;
+pub mod texture_slots;
 pub mod tool;
 pub mod view_settings;
 pub mod viewport;

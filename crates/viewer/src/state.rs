@@ -16,5 +16,6 @@ pub mod picture_menu;
 pub mod pixel_values;
 pub mod session;
 pub mod target;
+pub mod texturing;
 pub mod time_left;
 pub mod walk;

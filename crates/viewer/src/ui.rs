@@ -11,5 +11,6 @@ pub(crate) mod sun_dial;
 pub(crate) mod tabs;
 pub(crate) mod textures;
 pub(crate) mod theme;
+mod thumbnails;
 pub(crate) mod tools;
 pub(crate) mod world_painter;

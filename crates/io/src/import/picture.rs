@@ -46,6 +46,30 @@ const KINDS: &str = if cfg!(feature = "basis") {
     "PNG, JPEG, WebP, HDR or EXR"
 };
 
+/// Meaning of the values of a texture's picture, which decides how a file is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    /// Colours, of PNG, JPEG and WebP in sRGB.
+    Color,
+    /// Numbers, such as roughness.
+    Numbers,
+    /// Normals of small bumps. A grey image gives their heights, white above black by the width of a texel.
+    Normals,
+    /// How much of the surface is there: the image's alpha, or its brightness if it has none.
+    Coverage,
+}
+
+impl From<Meaning> for Role {
+    fn from(meaning: Meaning) -> Self {
+        match meaning {
+            Meaning::Color => Self::Color,
+            Meaning::Numbers => Self::Data,
+            Meaning::Normals => Self::Height,
+            Meaning::Coverage => Self::Alpha,
+        }
+    }
+}
+
 /// Meaning of an image's values, which decides how those of PNG, JPEG and WebP are decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Role {

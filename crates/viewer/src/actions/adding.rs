@@ -67,7 +67,7 @@ pub fn add_material(session: &mut Session, preset: MaterialPreset) {
         })
         .collect();
     let added = session.change(&format!("add {name}"), |scene| {
-        let index = preset.add(scene);
+        let index = preset.add_to(scene);
         (takers.iter()).try_for_each(|object| objects::assign(scene, *object, index))?;
         Ok(index)
     });

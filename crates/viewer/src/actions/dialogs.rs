@@ -26,8 +26,10 @@ pub fn take_keys(session: &mut Session, ctx: &egui::Context) -> bool {
 /// Whether a dialog is open that waits for an answer.
 pub fn is_asking(session: &Session) -> bool {
     let files = &session.files;
-    let is_typing =
-        files.typed.is_some() || files.typed_model.is_some() || session.comparing.typed.is_some();
+    let is_typing = files.typed.is_some()
+        || files.typed_model.is_some()
+        || files.texturing.is_typing()
+        || session.comparing.typed.is_some();
     let is_saving = files.saving.is_some() || files.film.is_some();
     session.editing.is_asking() || files.undecided.is_some() || is_saving || is_typing
 }
@@ -42,6 +44,10 @@ pub fn close_uppermost(session: &mut Session) -> bool {
         return true;
     }
     if files.typed.take().is_some() || files.typed_model.take().is_some() {
+        return true;
+    }
+    if files.texturing.is_typing() {
+        files.texturing.opening = None;
         return true;
     }
     if session.comparing.typed.take().is_some() {

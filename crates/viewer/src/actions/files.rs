@@ -122,6 +122,7 @@ fn left(session: &mut Session) {
     files.asked_model = None;
     files.model = None;
     files.environment = None;
+    files.texturing.opening = None;
     session.picture_menu = None;
 }
 

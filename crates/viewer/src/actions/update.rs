@@ -1,6 +1,6 @@
 //! Per-frame updates.
 
-use super::{adding, comparing, editing, files, inspector, lighting};
+use super::{adding, comparing, editing, files, inspector, lighting, texturing};
 use crate::model::camera::CameraController;
 use crate::state::pixel_values::PixelValues;
 use crate::state::session::Session;
@@ -33,6 +33,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     take_scene(session);
     files::update(session, ctx);
     adding::update(session);
+    texturing::update(session);
     comparing::update(session);
     inspector::update(session, ctx, seconds);
     editing::update(session, ctx);

@@ -160,7 +160,7 @@ impl MaterialPreset {
     }
 
     /// Adds the material to a scene under a name that is not used, and returns its index.
-    pub fn add(self, scene: &mut Scene) -> usize {
+    pub fn add_to(self, scene: &mut Scene) -> usize {
         let name = unused_name(scene, self.title());
         scene.materials.push(Material {
             name,

@@ -8,6 +8,7 @@ use crate::model::watch::Watch;
 use crate::state::film::FilmDialog;
 use crate::state::jobs::{JobId, JobOutcome, Jobs};
 use crate::state::target::Target;
+use crate::state::texturing::Texturing;
 use crate::worker::still::Still;
 use eframe::egui::ColorImage;
 use glimray_app::inputs::Inputs;
@@ -57,6 +58,8 @@ pub struct Files {
     pub(crate) asked_model: Option<Receiver<Reply>>,
     /// The model to add that is being read.
     pub(crate) model: Option<(PathBuf, Receiver<Result<Scene, ImportError>>)>,
+    /// The picture that is being opened for a material.
+    pub texturing: Texturing,
     /// The options of the scene that is shown, while it is read again with another choice of a part.
     pub(crate) before_choice: Option<Options>,
     /// Scenes to try next if one cannot be read, and the message if one can.
@@ -168,6 +171,7 @@ impl Files {
             || self.environment.is_some()
             || self.model.is_some()
             || self.shown_in_folder.is_some()
+            || self.texturing.is_busy()
             || self.pending.is_posing()
     }
 

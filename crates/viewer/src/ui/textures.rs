@@ -1,5 +1,6 @@
 //! Registers screens as egui textures.
 
+use super::thumbnails::Thumbnails;
 use eframe::egui::TextureId;
 use eframe::egui_wgpu::RenderState;
 use eframe::wgpu::FilterMode;
@@ -9,6 +10,8 @@ use glimray_render::Screen;
 pub struct Textures {
     state: RenderState,
     known: Vec<Known>,
+    /// Small copies of the pictures of the scene.
+    pub thumbnails: Thumbnails,
 }
 
 struct Known {
@@ -23,6 +26,7 @@ impl Textures {
         Self {
             state,
             known: Vec::new(),
+            thumbnails: Thumbnails::default(),
         }
     }
 

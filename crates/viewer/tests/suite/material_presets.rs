@@ -139,7 +139,7 @@ fn the_emissive_preset_glows_without_light() {
         assert_eq!(it.undo_count(), 1);
         it.undo_name().map(str::to_owned)
     });
-    assert_eq!(named.as_deref(), Some("apply emissive to tested"));
+    assert_eq!(named.as_deref(), Some("change preset of tested"));
     assert_eq!(scene(&window).materials[0].name, "tested");
     perform(&mut window, Action::Undo);
     assert!(scene(&window) == before);

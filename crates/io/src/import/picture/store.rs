@@ -219,6 +219,11 @@ impl Pictures {
             .unwrap_or_else(|| Err(gone()))
     }
 
+    /// Notes on what was repaired in the pictures that were read, and on what their files say and they do not follow.
+    pub fn into_notes(self) -> Vec<String> {
+        self.notes
+    }
+
     /// Adds a picture to the scene and returns its index.
     pub fn add(&mut self, picture: impl Into<Arc<Picture>>) -> usize {
         let picture = picture.into();

@@ -4,6 +4,7 @@ use crate::actions::adding;
 use crate::actions::comparing;
 use crate::actions::files;
 use crate::actions::files::pictures;
+use crate::actions::texturing;
 use crate::state::files::{Intent, SaveSize};
 use crate::state::jobs::Job;
 use crate::state::session::Session;
@@ -30,6 +31,12 @@ pub fn typed(ctx: &egui::Context, session: &mut Session) {
     let hint = "A model or a scene";
     if let Some(path) = path(ctx, "Add a model", hint, &mut session.files.typed_model) {
         adding::add_model(session, path);
+    }
+    if let Some(typed) = session.files.texturing.typed() {
+        let hint = "A PNG, JPEG, WebP, KTX2, EXR or HDR file";
+        if let Some(path) = path(ctx, "Open a picture for the material", hint, typed) {
+            texturing::open_typed(session, path);
+        }
     }
     let (title, hint) = (
         "Open a reference picture",

@@ -9,14 +9,17 @@ mod material_rows;
 mod metallic_roughness;
 mod place;
 mod section;
+mod texture_rows;
 
+use crate::actions::texturing;
 use crate::model::objects;
 use crate::model::objects::Id;
+use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::panels::{icon, row};
 use eframe::egui::{self, vec2};
-use fields::{Change, Fields};
-use glimray_scene::ObjectRef;
+use fields::{Change, Drawing, Fields, Peers};
+use glimray_scene::{ObjectRef, Scene};
 
 /// Draws the properties of the selection.
 pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
@@ -24,7 +27,13 @@ pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
     let Some(scene) = session.scene().cloned() else {
         return;
     };
-    let mut changes: Vec<Change> = Vec::new();
+    let selected = session.selected();
+    let mut drawing = Drawing {
+        peers: peers(&scene, session, &selected),
+        thumbnails: std::mem::take(&mut context.textures.thumbnails),
+        names: session.files.texturing.names().to_vec(),
+        ..Drawing::default()
+    };
     egui::Frame::new().inner_margin(6).show(ui, |ui| {
         row::scrolled(ui, |ui| {
             let selection = session
@@ -48,30 +57,67 @@ pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
                     egui::Label::new(egui::RichText::new(title).heading().size(15.0)).truncate(),
                 );
             });
-            let time = session.playback.time;
-            let fields = &mut Fields::new(ui, &scene, subject, &mut changes);
+            if let Some(others) = selected.len().checked_sub(1).filter(|others| *others > 0) {
+                ui.weak(format!(
+                    "{others} more selected. Edits change all that have the row."
+                ));
+            }
+            let fields = &mut Fields::drawn(ui, &mut drawing, &scene, subject);
             match selection {
                 None => environment::show(fields, session),
-                Some(Id::Camera(index)) => camera::show(fields, session, index),
-                Some(Id::Material(index)) => material::show(fields, index),
-                Some(id @ Id::Node(_)) => place::show(fields, id, time),
-                Some(id @ Id::Object(ObjectRef::Light(index))) => {
-                    place::show(fields, id, time);
-                    light::show(fields, index);
-                }
-                Some(id @ Id::Object(object)) => {
-                    place::show(fields, id, time);
-                    place::shape(fields, object);
-                    material::of_object(fields, session, object);
-                }
+                Some(id) => rows(fields, session, id),
             }
         });
     });
     let is_going_on = ui.input(|input| input.pointer.any_down());
-    for Change { name, apply } in changes {
+    for Change { name, apply } in drawing.changes {
         match is_going_on {
             true => session.drag_change(&name, apply),
             false => session.change(&name, apply),
         };
     }
+    if let Some(place) = drawing.opens {
+        texturing::ask(session, ui.ctx(), place);
+    }
+    context.textures.thumbnails = drawing.thumbnails;
+}
+
+/// The rows of one thing.
+fn rows(fields: &mut Fields, session: &mut Session, id: Id) {
+    let time = session.playback.time;
+    match id {
+        Id::Camera(index) => camera::show(fields, session, index),
+        Id::Material(index) if fields.is_new_material(index) => material::show(fields, index),
+        Id::Material(_) => {}
+        Id::Node(_) => place::show(fields, id, time),
+        Id::Object(ObjectRef::Light(index)) => {
+            place::show(fields, id, time);
+            light::show(fields, index);
+        }
+        Id::Object(object) => {
+            place::show(fields, id, time);
+            place::shape(fields, object);
+            material::of_object(fields, session, object);
+        }
+    }
+}
+
+/// The rows of what is selected besides the first.
+fn peers(scene: &Scene, session: &mut Session, selected: &[Id]) -> Peers {
+    let mut peers = Peers::default();
+    let Some((lead, others)) = selected.split_first() else {
+        return peers;
+    };
+    match *lead {
+        _ if !objects::is_there(scene, *lead) => return peers,
+        Id::Material(index) => peers.materials.extend([index]),
+        Id::Object(object) => peers.materials.extend(objects::materials_of(scene, object)),
+        Id::Node(_) | Id::Camera(_) => {}
+    }
+    for id in others {
+        if objects::is_there(scene, *id) {
+            rows(&mut Fields::read(&mut peers, scene), session, *id);
+        }
+    }
+    peers
 }

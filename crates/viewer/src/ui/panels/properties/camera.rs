@@ -21,24 +21,28 @@ const UNIT: f64 = 1000.0;
 pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
     let camera = fields.scene.cameras[index].clone();
     let is_used = fields.scene.camera_index == index;
-    fields.ui.horizontal_wrapped(|ui| {
-        let tip = "Move the view to this camera without changing the scene.";
-        if ui.button("Look through").on_hover_text(tip).clicked() {
-            session.frame(Id::Camera(index));
-        }
-        if !is_used {
-            let tip = "Make this the scene's active camera.";
-            if ui.button("Make active").on_hover_text(tip).clicked() {
-                fields.changes.push(Change {
-                    name: format!("use {}", fields.subject),
-                    apply: Box::new(move |scene| {
-                        scene.camera_index = index;
-                        Ok(())
-                    }),
-                });
+    let mut is_chosen = false;
+    fields.draw(|ui, _| {
+        ui.horizontal_wrapped(|ui| {
+            let tip = "Move the view to this camera without changing the scene.";
+            if ui.button("Look through").on_hover_text(tip).clicked() {
+                session.frame(Id::Camera(index));
             }
-        }
+            if !is_used {
+                let tip = "Make this the scene's active camera.";
+                is_chosen = ui.button("Make active").on_hover_text(tip).clicked();
+            }
+        })
     });
+    if is_chosen {
+        fields.request(Change {
+            name: format!("use {}", fields.subject),
+            apply: Box::new(move |scene| {
+                scene.camera_index = index;
+                Ok(())
+            }),
+        });
+    }
     if is_used {
         let is_home = session
             .controller
@@ -207,10 +211,12 @@ fn lens(fields: &mut Fields, focuses: &mut Option<usize>, index: usize, camera: 
         .number(("Focus", tip), lens.focus_distance, Limits::SIZE, set);
     let is_chosen = *focuses == Some(index);
     let tip = "Click in the picture on what is to be sharp.";
-    let button = (fields.ui).selectable_label(is_chosen, "Focus by click");
-    if button.on_hover_text(tip).clicked() {
-        *focuses = (!is_chosen).then_some(index);
-    }
+    fields.draw(|ui, _| {
+        let button = ui.selectable_label(is_chosen, "Focus by click");
+        if button.on_hover_text(tip).clicked() {
+            *focuses = (!is_chosen).then_some(index);
+        }
+    });
     let tip = "Number of aperture blades, at least 3; 0 for a circular aperture.";
     let limits = Limits::between(0.0, 64.0).with_speed(0.1);
     let set = with_lens(index, |lens, to| {

@@ -21,10 +21,12 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
     let background = fields.scene.background.clone();
     if session.view.background.is_some() {
         fields.note("Another background is shown for now.");
-        let button = fields.ui.button("Show the scene's background");
-        if button.on_hover_text("Ends “Next background”").clicked() {
-            session.view.background = None;
-        }
+        fields.draw(|ui, _| {
+            let button = ui.button("Show the scene's background");
+            if button.on_hover_text("Ends “Next background”").clicked() {
+                session.view.background = None;
+            }
+        });
     }
     let tip = "What rays see when they hit no object.";
     let now = Kind::of(fields.scene);
@@ -95,12 +97,14 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
         .as_ref()
         .is_none_or(|controller| controller.is_home());
     let tip = "Replace the scene's camera with the current view.";
-    let button = eframe::egui::Button::new("Set scene camera from view");
-    let button = fields.ui.add_enabled(!is_home, button).on_hover_text(tip);
-    let button = button.on_disabled_hover_text("The view matches the scene's camera.");
-    if button.clicked() {
-        session.set_scene_camera();
-    }
+    fields.draw(|ui, _| {
+        let button = eframe::egui::Button::new("Set scene camera from view");
+        let button = ui.add_enabled(!is_home, button).on_hover_text(tip);
+        let button = button.on_disabled_hover_text("The view matches the scene's camera.");
+        if button.clicked() {
+            session.set_scene_camera();
+        }
+    });
 }
 
 /// Where the sun stands, if the picture is a sky.

@@ -1,17 +1,28 @@
-//! Rows with a label and a value. Every edit becomes a named change of the scene.
+//! Rows with a label and a value. Every edit becomes a named change of the scene, of all that is selected and has the row.
+
+mod number;
+mod peers;
+
+pub use number::Limits;
+pub use peers::{Chosen, Edited, Peers};
 
 use crate::model::objects::EditError;
+use crate::state::texturing::TexturePlace;
 use crate::ui::panels::icon::{edge, named};
-use crate::ui::panels::row::{heading, row};
+use crate::ui::panels::row;
 use crate::ui::theme;
-use eframe::egui::{self, DragValue, Ui, UiBuilder, vec2};
-use glam::{DVec3, Vec3};
-use glimray_scene::{Scene, Target};
+use crate::ui::thumbnails::Thumbnails;
+use eframe::egui::{self, Ui, vec2};
+use glam::{DVec2, DVec3, Vec3};
+use glimray_scene::{Picture, Scene, Target};
+use number::{Name, drag};
+use peers::{Parts, Peer, apply_to};
+use std::sync::Weak;
 
 /// Width of the letter of an axis.
 const AXIS: f32 = 8.0;
-/// Tooltip of animated properties.
-const DRIVEN: &str = "Animated: edit its keys in the scene file.";
+/// Text in place of values that differ among what is selected.
+const MIXED: &str = "—";
 
 /// A change of the scene.
 pub struct Change {
@@ -24,99 +35,81 @@ pub struct Change {
 /// A change that can fail.
 type Apply = dyn FnOnce(&mut Scene) -> Result<(), EditError>;
 
-/// Range and drag speed of a number.
-#[derive(Clone, Copy)]
-pub struct Limits {
-    pub least: f64,
-    pub most: f64,
-    /// Change per point of a drag, relative to the number, or to 1 if it is small.
-    pub speed: f64,
-    /// The unit as a suffix.
-    pub unit: &'static str,
-}
-
-impl Limits {
-    /// Any finite coordinate.
-    pub const LENGTH: Self = Self {
-        least: -1e15,
-        most: 1e15,
-        speed: 0.01,
-        unit: "",
-    };
-    /// Positive lengths.
-    pub const SIZE: Self = Self {
-        least: 1e-9,
-        ..Self::LENGTH
-    };
-    /// Positive lengths, and none at all.
-    pub const ENDLESS: Self = Self {
-        most: f64::INFINITY,
-        ..Self::SIZE
-    };
-    /// 0 or more.
-    pub const AMOUNT: Self = Self {
-        least: 0.0,
-        most: 1e9,
-        ..Self::LENGTH
-    };
-    pub const ANGLE: Self = Self {
-        least: -36000.0,
-        most: 36000.0,
-        speed: 0.5,
-        unit: "°",
-    };
-
-    /// From 0 to 1.
-    pub const UNIT: Self = Self::between(0.0, 1.0);
-
-    pub const fn between(least: f64, most: f64) -> Self {
-        Self {
-            least,
-            most,
-            ..Self::LENGTH
-        }
-    }
-
-    /// Limits with another change per point of a drag.
-    pub const fn with_speed(self, speed: f64) -> Self {
-        Self { speed, ..self }
-    }
-
-    fn speed_at(&self, value: f64) -> f64 {
-        match self.unit {
-            "°" => self.speed,
-            _ => self.speed * value.abs().clamp(0.1, 1e6),
-        }
-    }
-}
-
 /// The label and the tooltip of a row.
 type Label<'a> = (&'a str, &'a str);
 
+/// The input and the output of rows that are drawn.
+#[derive(Default)]
+pub struct Drawing {
+    /// The rows of the others that are selected.
+    pub peers: Peers,
+    /// The thumbnails of pictures.
+    pub thumbnails: Thumbnails,
+    /// The edits.
+    pub changes: Vec<Change>,
+    /// The names of the files of pictures that were opened.
+    pub names: Vec<(Weak<Picture>, String)>,
+    /// The place for which a picture is to be opened.
+    pub opens: Option<TexturePlace>,
+}
+
+/// Rows that are drawn, or read so that an edit of other rows changes these too.
+enum Sheet<'a> {
+    Drawn(&'a mut Ui, &'a mut Drawing),
+    Read(&'a mut Peers),
+}
+
 /// The rows of one object.
 pub struct Fields<'a> {
-    pub ui: &'a mut Ui,
+    sheet: Sheet<'a>,
     pub scene: &'a Scene,
     /// The object's label.
     pub subject: String,
-    pub changes: &'a mut Vec<Change>,
     /// The animated property that the next row shows.
     driver: Option<Target>,
+    /// The part of the rows to which a label belongs, where several have the same.
+    part: &'static str,
 }
 
 impl<'a> Fields<'a> {
-    pub fn new(
+    /// Rows that are drawn.
+    pub fn drawn(
         ui: &'a mut Ui,
+        drawing: &'a mut Drawing,
         scene: &'a Scene,
         subject: String,
-        changes: &'a mut Vec<Change>,
     ) -> Self {
+        Self::new(Sheet::Drawn(ui, drawing), scene, subject)
+    }
+
+    /// Rows that are not drawn: they are added to those of `peers`.
+    pub fn read(peers: &'a mut Peers, scene: &'a Scene) -> Self {
+        Self::new(Sheet::Read(peers), scene, String::new())
+    }
+
+    fn new(sheet: Sheet<'a>, scene: &'a Scene, subject: String) -> Self {
         Self {
-            ui,
+            sheet,
             scene,
             subject,
-            changes,
             driver: None,
+            part: "",
+        }
+    }
+
+    /// Draws something that is no row, if rows are drawn.
+    pub fn draw<R>(&mut self, content: impl FnOnce(&mut Ui, &mut Drawing) -> R) -> Option<R> {
+        match &mut self.sheet {
+            Sheet::Drawn(ui, drawing) => Some(content(ui, drawing)),
+            Sheet::Read(_) => None,
+        }
+    }
+
+    /// Whether the rows of a material are not among those of the others yet. Drawn rows come once.
+    pub fn is_new_material(&mut self, index: usize) -> bool {
+        match &mut self.sheet {
+            Sheet::Drawn(..) => true,
+            Sheet::Read(peers) => peers.materials.insert(index),
         }
     }
 
@@ -132,6 +125,11 @@ impl<'a> Fields<'a> {
         self
     }
 
+    /// Requests a change.
+    pub fn request(&mut self, change: Change) {
+        self.draw(|_, drawing| drawing.changes.push(change));
+    }
+
     /// Requests a change of one property.
     pub fn change(
         &mut self,
@@ -139,39 +137,58 @@ impl<'a> Fields<'a> {
         apply: impl FnOnce(&mut Scene) -> Result<(), EditError> + 'static,
     ) {
         let property = property.to_lowercase();
-        self.changes.push(Change {
+        self.request(Change {
             name: format!("change {property} of {}", self.subject),
             apply: Box::new(apply),
         });
     }
 
-    fn set<T: 'static>(
+    /// A row of any kind. `content` draws its field and edits the value; its last argument says which parts of the value
+    /// are others in what else is selected.
+    pub fn field<T: Parts>(
         &mut self,
+        label: Label,
         property: &str,
-        value: Option<T>,
-        set: impl FnOnce(&mut Scene, T) + 'static,
+        value: T,
+        set: impl FnOnce(&mut Scene, T) -> Result<(), EditError> + 'static,
+        content: impl FnOnce(&mut Ui, Option<egui::Id>, [bool; 3]) -> Option<Edited<T>>,
     ) {
-        if let Some(value) = value {
-            self.change(property, move |scene| {
-                set(scene, value);
-                Ok(())
-            });
-        }
-    }
-
-    /// A row with a label and `content`.
-    fn row<R>(
-        &mut self,
-        (label, tip): Label,
-        content: impl FnOnce(&mut Ui, Option<egui::Id>) -> R,
-    ) -> R {
         let driver = self.driver.take();
         let mut targets = self.scene.tracks.iter().flat_map(|track| &track.targets);
         let is_driven = driver.is_some_and(|driver| targets.any(|target| *target == driver));
-        row(self.ui, (label, tip), |ui, labelled_by| {
-            ui.add_enabled_ui(!is_driven, |ui| content(ui, labelled_by))
+        let key = (self.part, property.to_owned());
+        let (ui, drawing) = match &mut self.sheet {
+            Sheet::Read(peers) => {
+                if !is_driven {
+                    peers.add(key, Peer::new(value, set));
+                }
+                return;
+            }
+            Sheet::Drawn(ui, drawing) => (ui, drawing),
+        };
+        let others: Vec<Peer<T>> = drawing.peers.take(&key);
+        let mut mixed = [false; 3];
+        for other in &others {
+            let differs = value.differs(other.value);
+            (0..3).for_each(|part| mixed[part] |= differs[part]);
+        }
+        let edited = row::row(ui, label, |ui, labelled_by| {
+            ui.add_enabled_ui(!is_driven, |ui| content(ui, labelled_by, mixed))
                 .inner
-        })
+        });
+        if let Some(edited) = edited {
+            let subject = match others.len() {
+                0 => self.subject.clone(),
+                count => format!("{} items", count + 1),
+            };
+            drawing.changes.push(Change {
+                name: format!("change {} of {subject}", property.to_lowercase()),
+                apply: Box::new(move |scene| {
+                    set(scene, edited.value)?;
+                    apply_to(others, edited, scene)
+                }),
+            });
+        }
     }
 
     /// A row with a number.
@@ -182,11 +199,13 @@ impl<'a> Fields<'a> {
         limits: Limits,
         set: impl FnOnce(&mut Scene, f64) + 'static,
     ) {
-        let value = self.row(label, |ui, labelled_by| {
+        let (name, tip) = label;
+        self.field(label, name, value, always(set), |ui, labelled_by, mixed| {
             let width = ui.available_width();
-            drag(ui, Name::Label(labelled_by), label.1, value, limits, width)
+            let name = Name::Label(labelled_by);
+            let value = drag(ui, name, tip, value, mixed[0], limits, width)?;
+            Some(Edited::whole(value))
         });
-        self.set(label.0, value, set);
     }
 
     /// A row with a vector.
@@ -197,35 +216,57 @@ impl<'a> Fields<'a> {
         limits: Limits,
         set: impl FnOnce(&mut Scene, DVec3) + 'static,
     ) {
-        let value = self.vector_value(label, value, limits);
-        self.set(label.0, value, set);
+        self.try_vector(label, value, limits, always(set));
     }
 
-    /// A vector row that returns the edited value and requests no change.
-    pub fn vector_value(
+    /// A row with a vector whose change can fail.
+    pub fn try_vector(
         &mut self,
-        (label, tip): Label,
+        label: Label,
         value: DVec3,
         limits: Limits,
-    ) -> Option<DVec3> {
-        self.row((label, tip), |ui, _| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            let width = (ui.available_width() - 10.0) / 3.0 - AXIS;
-            let colors = theme::axes(ui.visuals());
-            let mut changed = None;
-            for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-                let size = vec2(AXIS, ui.spacing().interact_size.y);
-                let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-                let font = egui::TextStyle::Small.resolve(ui.style());
-                let (center, letter) = (egui::Align2::CENTER_CENTER, name.to_uppercase());
-                (ui.painter()).text(rect.center(), center, letter, font, colors[axis]);
-                let name = format!("{label} {name}");
-                if let Some(now) = drag(ui, Name::Own(&name), tip, value[axis], limits, width) {
-                    changed.get_or_insert(value)[axis] = now;
-                }
-            }
-            changed
-        })
+        set: impl FnOnce(&mut Scene, DVec3) -> Result<(), EditError> + 'static,
+    ) {
+        let (name, tip) = label;
+        self.field(label, name, value, set, |ui, _, mixed| {
+            let edited = axes(
+                ui,
+                (name, tip),
+                value.to_array(),
+                &["x", "y", "z"],
+                limits,
+                mixed,
+            )?;
+            Some(Edited {
+                value: DVec3::from(edited.value),
+                parts: edited.parts,
+            })
+        });
+    }
+
+    /// A row with two numbers, along u and v.
+    pub fn pair(
+        &mut self,
+        label: Label,
+        value: DVec2,
+        limits: Limits,
+        set: impl FnOnce(&mut Scene, DVec2) + 'static,
+    ) {
+        let (name, tip) = label;
+        self.field(label, name, value, always(set), |ui, _, mixed| {
+            let edited = axes(
+                ui,
+                (name, tip),
+                value.to_array(),
+                &["u", "v"],
+                limits,
+                mixed,
+            )?;
+            Some(Edited {
+                value: DVec2::from(edited.value),
+                parts: edited.parts,
+            })
+        });
     }
 
     /// A linear colour: a button for the hue, and a number for each component, which may exceed 1.
@@ -237,66 +278,47 @@ impl<'a> Fields<'a> {
     ) {
         let tip = format!("{tip}\nLinear red, green and blue (Rec. 709), 0 or more.");
         let tip = tip.as_str();
-        let value = self.row((label, tip), |ui, _| {
-            ui.spacing_mut().item_spacing.x = 3.0;
-            let button = 22.0;
-            ui.spacing_mut().interact_size.x = button;
-            // egui draws the button's outline in this colour.
-            let edge = edge(ui.visuals());
-            ui.visuals_mut().widgets.inactive.bg_fill = edge;
-            // A colour brighter than white keeps its brightness when its hue changes.
-            let scale = value.max_element().max(1.0);
-            let mut shown = (value / scale).to_array();
-            let mut changed = None;
-            let response = ui.color_edit_button_rgb(&mut shown);
-            named(&response, &format!("{label} colour"));
-            if response.on_hover_text(tip).changed() {
-                changed = Some(Vec3::from(shown) * scale);
-            }
-            let width = (ui.available_width() - 6.0) / 3.0;
-            for (part, name) in ["red", "green", "blue"].into_iter().enumerate() {
-                let name = format!("{label} {name}");
-                let own = f64::from(value[part]);
-                if let Some(now) = drag(ui, Name::Own(&name), tip, own, Limits::AMOUNT, width) {
-                    changed.get_or_insert(value)[part] = now as f32;
-                }
-            }
-            changed
+        self.field((label, tip), label, value, always(set), |ui, _, mixed| {
+            color_field(ui, (label, tip), value, mixed)
         });
-        self.set(label, value, set);
     }
 
     /// Whether an option of this object is on; `usual` until the user changes it.
-    pub fn option_value(&self, label: &str, usual: bool) -> bool {
+    pub fn option_value(&mut self, label: &str, usual: bool) -> bool {
         let id = egui::Id::unique((label, &self.subject));
-        self.ui.data(|data| data.get_temp(id)).unwrap_or(usual)
+        let kept = self.draw(|ui, _| ui.data(|data| data.get_temp(id)));
+        kept.flatten().unwrap_or(usual)
     }
 
     /// A check box for `value`, kept while the window is open without changing the scene. Returns its new
     /// value when it is clicked.
     pub fn option(&mut self, (label, tip): Label, mut value: bool) -> Option<bool> {
         let id = egui::Id::unique((label, &self.subject));
-        self.row(("", tip), |ui, _| {
-            let response = ui.checkbox(&mut value, label).on_hover_text(tip);
-            response.changed().then(|| {
-                ui.data_mut(|data| data.insert_temp(id, value));
-                value
+        self.draw(|ui, _| {
+            row::row(ui, ("", tip), |ui, _| {
+                let response = ui.checkbox(&mut value, label).on_hover_text(tip);
+                response.changed().then(|| {
+                    ui.data_mut(|data| data.insert_temp(id, value));
+                    value
+                })
             })
         })
+        .flatten()
     }
 
     /// A row with a check box.
     pub fn toggle(
         &mut self,
         (label, tip): Label,
-        mut value: bool,
+        value: bool,
         set: impl FnOnce(&mut Scene, bool) + 'static,
     ) {
-        let value = self.row(("", tip), |ui, _| {
-            let response = ui.checkbox(&mut value, label).on_hover_text(tip);
-            response.changed().then_some(value)
+        self.field(("", tip), label, value, always(set), |ui, _, mixed| {
+            let mut now = value;
+            let check = egui::Checkbox::new(&mut now, label).indeterminate(mixed[0]);
+            let response = ui.add(check).on_hover_text(tip);
+            response.changed().then_some(Edited::whole(now))
         });
-        self.set(label, value, set);
     }
 
     /// A row with a choice.
@@ -307,116 +329,190 @@ impl<'a> Fields<'a> {
         options: &[(T, impl AsRef<str>)],
         set: impl FnOnce(&mut Scene, T) + 'static,
     ) {
-        let chosen = self.choice_value(label, value, options);
-        self.set(label.0, chosen, set);
+        self.try_choice(label, value, options, always(set));
     }
 
-    /// A choice row that returns the chosen value and requests no change.
-    pub fn choice_value<T: Copy + PartialEq>(
+    /// A row with a choice whose change can fail.
+    pub fn try_choice<T: Copy + PartialEq + 'static>(
         &mut self,
-        (label, tip): Label,
+        label: Label,
         value: T,
         options: &[(T, impl AsRef<str>)],
-    ) -> Option<T> {
-        let now = options.iter().find(|(option, _)| *option == value);
-        let now = now.map_or("Several", |(_, name)| name.as_ref());
-        self.row((label, tip), |ui, labelled_by| {
-            let mut chosen = None;
-            let width = ui.available_width();
-            let response = egui::ComboBox::from_id_salt(label)
-                .width(width)
-                .truncate()
-                .selected_text(now)
-                .show_ui(ui, |ui| {
-                    for (option, name) in options {
-                        if ui
-                            .selectable_label(*option == value, name.as_ref())
-                            .clicked()
-                        {
-                            chosen = Some(*option);
-                        }
-                    }
-                })
-                .response;
-            let response = match labelled_by {
-                Some(id) => response.labelled_by(id),
-                None => response,
-            };
-            response.on_hover_text(tip);
-            chosen.filter(|chosen| *chosen != value)
-        })
+        set: impl FnOnce(&mut Scene, T) -> Result<(), EditError> + 'static,
+    ) {
+        let set = move |scene: &mut Scene, Chosen(value): Chosen<T>| set(scene, value);
+        self.field(
+            label,
+            label.0,
+            Chosen(value),
+            set,
+            |ui, labelled_by, mixed| {
+                let chosen = choose(ui, label, labelled_by, value, mixed[0], options)?;
+                Some(Edited::whole(Chosen(chosen)))
+            },
+        );
     }
 
     /// A heading.
     pub fn heading(&mut self, text: &str) {
-        heading(self.ui, text);
+        self.draw(|ui, _| row::heading(ui, text));
     }
 
     /// A note.
     pub fn note(&mut self, text: &str) {
-        self.ui.weak(text);
+        self.draw(|ui, _| ui.weak(text));
     }
-}
 
-/// Sets the accessible name of a number.
-enum Name<'a> {
-    Own(&'a str),
-    Label(Option<egui::Id>),
-}
-
-/// A number that can be dragged or typed; returns the edited value.
-fn drag(ui: &mut Ui, name: Name, tip: &str, value: f64, limits: Limits, width: f32) -> Option<f64> {
-    let mut now = value;
-    let widget = DragValue::new(&mut now)
-        .speed(limits.speed_at(value))
-        .range(limits.least..=limits.most)
-        .clamp_existing_to_range(false)
-        .custom_formatter(|value, _| shown(value))
-        .custom_parser(parsed)
-        .update_while_editing(false)
-        .suffix(limits.unit);
-    let size = vec2(width.max(0.0), ui.spacing().interact_size.y);
-    let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-    // A long number does not widen its column.
-    let layout = egui::Layout::centered_and_justified(egui::Direction::TopDown);
-    let mut cell = ui.new_child(UiBuilder::new().max_rect(rect).layout(layout));
-    cell.set_clip_rect(rect.intersect(ui.clip_rect()));
-    cell.spacing_mut().button_padding.x = 2.0;
-    let response = cell.add(widget);
-    let response = match name {
-        Name::Own(name) => {
-            named(&response, name);
-            response
+    /// Rows below a heading that folds them.
+    pub fn section(&mut self, title: &str, is_open: bool, rows: impl FnOnce(&mut Fields)) {
+        let (scene, subject, part) = (self.scene, self.subject.clone(), self.part);
+        match &mut self.sheet {
+            Sheet::Read(_) => rows(self),
+            Sheet::Drawn(ui, drawing) => row::section(ui, title, is_open, |ui| {
+                rows(&mut Fields {
+                    part,
+                    ..Fields::drawn(ui, drawing, scene, subject)
+                });
+            }),
         }
-        Name::Label(Some(id)) => response.labelled_by(id),
-        Name::Label(None) => response,
-    };
-    let response = response.on_hover_text(tip).on_disabled_hover_text(DRIVEN);
-    // Unedited text must not round the number.
-    let is_meant = response.dragged() || shown(value) != shown(now);
-    let is_possible = now.is_finite() || now == f64::INFINITY && limits.most == f64::INFINITY;
-    (response.changed() && is_meant && is_possible).then(|| now.clamp(limits.least, limits.most))
-}
+    }
 
-/// Reads a number as egui does, and "∞" or "none" as infinity.
-fn parsed(text: &str) -> Option<f64> {
-    let text: String = text.split_whitespace().collect();
-    match text.as_str() {
-        "∞" | "none" => Some(f64::INFINITY),
-        number => number.replace('−', "-").parse().ok(),
+    /// Rows of a part, below a line that folds them. Other parts may have rows with the same labels.
+    pub fn part(&mut self, (part, title): (&'static str, &str), rows: impl FnOnce(&mut Fields)) {
+        let (scene, subject) = (self.scene, self.subject.clone());
+        let before = std::mem::replace(&mut self.part, part);
+        match &mut self.sheet {
+            Sheet::Read(_) => rows(self),
+            Sheet::Drawn(ui, drawing) => {
+                let fold = egui::CollapsingHeader::new(title).id_salt(part);
+                let fold = fold.show_unindented(ui, |ui| {
+                    rows(&mut Fields {
+                        part,
+                        ..Fields::drawn(ui, drawing, scene, subject)
+                    });
+                });
+                named(&fold.header_response, &format!("{title} of {part}"));
+            }
+        }
+        self.part = before;
     }
 }
 
-/// Formats a number with few digits.
-pub fn shown(value: f64) -> String {
-    let size = value.abs();
-    let text = match size {
-        0.0 => return "0".into(),
-        _ if value.is_infinite() => return "∞".into(),
-        _ if !(1e-3..1e6).contains(&size) => return format!("{value:.2e}"),
-        _ if size >= 1000.0 => format!("{value:.1}"),
-        _ if size >= 100.0 => format!("{value:.2}"),
-        _ => format!("{value:.3}"),
+/// A change that cannot fail.
+fn always<T>(
+    set: impl FnOnce(&mut Scene, T),
+) -> impl FnOnce(&mut Scene, T) -> Result<(), EditError> {
+    move |scene, value| {
+        set(scene, value);
+        Ok(())
+    }
+}
+
+/// Numbers with the letters of their axes.
+fn axes<const N: usize>(
+    ui: &mut Ui,
+    (label, tip): Label,
+    value: [f64; N],
+    letters: &[&str; N],
+    limits: Limits,
+    mixed: [bool; 3],
+) -> Option<Edited<[f64; N]>> {
+    ui.spacing_mut().item_spacing.x = 2.0;
+    let width = (ui.available_width() - 10.0) / N as f32 - AXIS;
+    let colors = theme::axes(ui.visuals());
+    let mut edited: Option<Edited<[f64; N]>> = None;
+    for (axis, name) in letters.iter().enumerate() {
+        let size = vec2(AXIS, ui.spacing().interact_size.y);
+        let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+        let font = egui::TextStyle::Small.resolve(ui.style());
+        let (center, letter) = (egui::Align2::CENTER_CENTER, name.to_uppercase());
+        (ui.painter()).text(rect.center(), center, letter, font, colors[axis]);
+        let name = format!("{label} {name}");
+        let own = value[axis];
+        if let Some(now) = drag(ui, Name::Own(&name), tip, own, mixed[axis], limits, width) {
+            let edited = edited.get_or_insert(Edited {
+                value,
+                parts: [false; 3],
+            });
+            edited.value[axis] = now;
+            edited.parts[axis] = true;
+        }
+    }
+    edited
+}
+
+/// A button for the hue, and a number for each component.
+fn color_field(
+    ui: &mut Ui,
+    (label, tip): Label,
+    value: Vec3,
+    mixed: [bool; 3],
+) -> Option<Edited<Vec3>> {
+    ui.spacing_mut().item_spacing.x = 3.0;
+    let button = 22.0;
+    ui.spacing_mut().interact_size.x = button;
+    // egui draws the button's outline in this colour.
+    let edge = edge(ui.visuals());
+    ui.visuals_mut().widgets.inactive.bg_fill = edge;
+    // A colour brighter than white keeps its brightness when its hue changes.
+    let scale = value.max_element().max(1.0);
+    let mut shown = (value / scale).to_array();
+    let mut edited = None;
+    let response = ui.color_edit_button_rgb(&mut shown);
+    named(&response, &format!("{label} colour"));
+    if response.on_hover_text(tip).changed() {
+        edited = Some(Edited::whole(Vec3::from(shown) * scale));
+    }
+    let width = (ui.available_width() - 6.0) / 3.0;
+    for (part, name) in ["red", "green", "blue"].into_iter().enumerate() {
+        let name = format!("{label} {name}");
+        let (own, is_mixed) = (f64::from(value[part]), mixed[part]);
+        let limits = Limits::AMOUNT;
+        if let Some(now) = drag(ui, Name::Own(&name), tip, own, is_mixed, limits, width) {
+            let edited = edited.get_or_insert(Edited {
+                value,
+                parts: [false; 3],
+            });
+            edited.value[part] = now as f32;
+            edited.parts[part] = true;
+        }
+    }
+    edited
+}
+
+/// A drop-down of options. Returns another one that is chosen, or any if those of the selection are `mixed`.
+pub fn choose<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    (label, tip): Label,
+    labelled_by: Option<egui::Id>,
+    value: T,
+    mixed: bool,
+    options: &[(T, impl AsRef<str>)],
+) -> Option<T> {
+    let now = options.iter().find(|(option, _)| *option == value);
+    let now = match mixed {
+        true => MIXED,
+        false => now.map_or("Several", |(_, name)| name.as_ref()),
     };
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    let mut chosen = None;
+    let width = ui.available_width();
+    let response = egui::ComboBox::from_id_salt(label)
+        .width(width)
+        .truncate()
+        .selected_text(now)
+        .show_ui(ui, |ui| {
+            for (option, name) in options {
+                let is_it = *option == value && !mixed;
+                if ui.selectable_label(is_it, name.as_ref()).clicked() {
+                    chosen = Some(*option);
+                }
+            }
+        })
+        .response;
+    let response = match labelled_by {
+        Some(id) => response.labelled_by(id),
+        None => response,
+    };
+    response.on_hover_text(tip);
+    chosen.filter(|chosen| mixed || *chosen != value)
 }

@@ -1,15 +1,17 @@
 //! The properties of a material.
 
-use super::material_rows::{NORMAL_MAP, Part, TextureRow, color, number, textures, with};
-use super::metallic_roughness;
+use super::material_rows::{Part, color, number, with};
+use super::{metallic_roughness, texture_rows};
 use crate::model::material_presets::MaterialPreset;
 use crate::model::objects;
 use crate::model::objects::Id;
 use crate::state::session::Session;
 use crate::ui::panels::icon;
-use crate::ui::panels::properties::fields::{Change, Fields, Limits};
+use crate::ui::panels::properties::fields::{Fields, Limits};
 use glam::Vec3;
-use glimray_scene::{Bsdf, Fresnel, Material, MaterialProperty, Mixing, ObjectRef, Phong, Target};
+use glimray_scene::{
+    Bsdf, Fresnel, Material, MaterialProperty, Mixing, ObjectRef, Phong, Scene, Target,
+};
 
 /// The option that links the ambient colour to the diffuse colour.
 const FOLLOWS: &str = "Ambient follows diffuse";
@@ -25,8 +27,6 @@ pub fn show(fields: &mut Fields, index: usize) {
             emission(fields, index, material);
             mirror_and_glass(fields, index, phong);
             priority(fields, index, material);
-            texture_heading(fields);
-            textures(fields, index, PHONG_TEXTURES);
         }
         Bsdf::MetallicRoughness(model) => {
             metallic_roughness::surface(fields, index, model);
@@ -35,11 +35,9 @@ pub fn show(fields: &mut Fields, index: usize) {
             priority(fields, index, material);
             metallic_roughness::layers(fields, index, model);
             metallic_roughness::classical(fields, index, model);
-            texture_heading(fields);
-            textures(fields, index, metallic_roughness::TEXTURES);
         }
     }
-    textures(fields, index, TEXTURES);
+    texture_rows::show(fields, index);
 }
 
 /// The presets. A material with other parameters than all of them is shown as a custom one.
@@ -49,13 +47,11 @@ fn presets(fields: &mut Fields, index: usize) {
     let presets = MaterialPreset::ALL.map(|preset| (Some(preset), preset.title()));
     let options: Vec<_> = custom.into_iter().chain(presets).collect();
     let tip = "Replace all that follows by a ready-made material. The name stays.";
-    if let Some(Some(preset)) = fields.choice_value(("Preset", tip), now, &options) {
-        let name = preset.title().to_lowercase();
-        fields.changes.push(Change {
-            name: format!("apply {name} to {}", fields.subject),
-            apply: Box::new(move |scene| preset.apply(scene, index)),
-        });
-    }
+    let set = move |scene: &mut Scene, to: Option<MaterialPreset>| match to {
+        Some(preset) => preset.apply(scene, index),
+        None => Ok(()),
+    };
+    fields.try_choice(("Preset", tip), now, &options, set);
 }
 
 fn local_shading(fields: &mut Fields, index: usize, phong: &Phong) {
@@ -205,28 +201,6 @@ fn priority(fields: &mut Fields, index: usize, material: &Material) {
     fields.number(("Priority", tip), f64::from(material.priority), limits, set);
 }
 
-/// The textures of Phong colours.
-const PHONG_TEXTURES: &[TextureRow<Phong>] = &[
-    ("× Diffuse", |p| &mut p.textures.diffuse),
-    ("× Specular", |p| &mut p.textures.specular),
-    ("× Ambient", |p| &mut p.textures.ambient),
-    ("× Reflect", |p| &mut p.textures.reflect),
-    ("× Transmit", |p| &mut p.textures.transmit),
-];
-
-/// The textures that all materials have.
-const TEXTURES: &[TextureRow<Material>] = &[
-    ("× Emission", |m| &mut m.textures.emission),
-    (NORMAL_MAP, |m| &mut m.textures.normal),
-    ("× Alpha", |m| &mut m.textures.alpha),
-];
-
-fn texture_heading(fields: &mut Fields) {
-    if !fields.scene.textures.is_empty() {
-        fields.heading("Textures");
-    }
-}
-
 /// The material of an object, and its properties if all parts share it.
 pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) {
     let scene = fields.scene;
@@ -243,10 +217,12 @@ pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) 
         _ => usize::MAX,
     };
     let tip = "The material of the whole object.";
-    if let Some(to) = fields.choice_value(("Material", tip), now, &options) {
-        fields.change("material", move |scene| objects::assign(scene, object, to));
-    }
+    let set = move |scene: &mut Scene, to: usize| objects::assign(scene, object, to);
+    fields.try_choice(("Material", tip), now, &options, set);
     if let [one] = used[..] {
+        if !fields.is_new_material(one) {
+            return;
+        }
         let subject = session.label(Id::Material(one));
         let users = scene
             .shapes
@@ -268,17 +244,16 @@ pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) 
     }
     for index in used {
         let label = session.label(Id::Material(index));
-        fields.ui.horizontal(|ui| {
-            let size = eframe::egui::vec2(16.0, 18.0);
-            let (rect, _) = ui.allocate_exact_size(size, eframe::egui::Sense::hover());
-            icon::draw(ui, rect, scene, Id::Material(index), true);
-            if ui
-                .link(label)
-                .on_hover_text("Select this material")
-                .clicked()
-            {
-                session.select(vec![Id::Material(index)]);
-            }
+        fields.draw(|ui, _| {
+            ui.horizontal(|ui| {
+                let size = eframe::egui::vec2(16.0, 18.0);
+                let (rect, _) = ui.allocate_exact_size(size, eframe::egui::Sense::hover());
+                icon::draw(ui, rect, scene, Id::Material(index), true);
+                let link = ui.link(label).on_hover_text("Select this material");
+                if link.clicked() {
+                    session.select(vec![Id::Material(index)]);
+                }
+            })
         });
     }
 }

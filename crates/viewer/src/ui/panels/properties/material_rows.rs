@@ -2,7 +2,7 @@
 
 use crate::ui::panels::properties::fields::{Fields, Limits};
 use glam::Vec3;
-use glimray_scene::{Bsdf, Material, MetallicRoughness, Pattern, Phong, Scene, Target};
+use glimray_scene::{Bsdf, Material, MetallicRoughness, Phong, Scene, Target};
 
 /// A part of a material that rows edit.
 pub trait Part: Sized {
@@ -96,49 +96,5 @@ pub fn number<P: Part + 'static>(
         fields
             .may_be_driven_by(target)
             .number(label, value, limits, set);
-    }
-}
-
-/// The label of a texture, and access to it.
-pub type TextureRow<P> = (&'static str, fn(&mut P) -> &mut Option<usize>);
-
-/// The label of the normal map.
-pub const NORMAL_MAP: &str = "Normal map";
-
-/// The label of the clear coat's normal map.
-pub const COAT_NORMAL_MAP: &str = "Clear coat normal map";
-
-/// The label of the map of the film's thickness.
-pub const FILM_MAP: &str = "Film thickness map";
-
-/// The textures of a part of a material, and the numbers and colours that they multiply.
-pub fn textures<P: Part + 'static>(fields: &mut Fields, index: usize, rows: &[TextureRow<P>]) {
-    if fields.scene.textures.is_empty() {
-        return;
-    }
-    let mut options = vec![(None, "None".to_owned())];
-    for (number, texture) in fields.scene.textures.iter().enumerate() {
-        let kind = match texture.pattern {
-            Pattern::Checker { .. } => "Checker",
-            Pattern::Stripes { .. } => "Stripes",
-            Pattern::Gradient { .. } => "Gradient",
-            Pattern::Noise { .. } => "Noise",
-            Pattern::Picture { .. } => "Picture",
-        };
-        options.push((Some(number), format!("{kind} (texture {})", number + 1)));
-    }
-    let mut material = fields.scene.materials[index].clone();
-    let Some(part) = P::of(&mut material) else {
-        return;
-    };
-    for &(label, slot) in rows {
-        let tip = match label {
-            NORMAL_MAP | COAT_NORMAL_MAP => "Normals of small bumps, as a picture.",
-            FILM_MAP => "Texture that is 0 where the film is as thick as “Film from”, in green.",
-            "× Alpha" => "Texture whose alpha says how much of the surface is there.",
-            _ => "Texture that multiplies this colour or number.",
-        };
-        let set = edit(index, move |part, to| *slot(part) = to);
-        fields.choice((label, tip), *slot(part), &options, set);
     }
 }

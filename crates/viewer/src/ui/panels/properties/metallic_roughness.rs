@@ -1,8 +1,6 @@
 //! The properties of a metallic-roughness BSDF.
 
-use super::material_rows::{
-    COAT_NORMAL_MAP, FILM_MAP, TextureRow, color, color_up_to, number, with,
-};
+use super::material_rows::{color, color_up_to, number, with};
 use crate::ui::panels::properties::fields::{Fields, Limits};
 use glam::Vec3;
 use glimray_scene::{LayerProperty, MetallicRoughness, Target};
@@ -185,32 +183,6 @@ pub fn classical(fields: &mut Fields, index: usize, model: &MetallicRoughness) {
         fields.toggle(("Own colours", tip), true, set);
     }
 }
-
-/// Textures of numbers and colours.
-pub const TEXTURES: &[TextureRow<MetallicRoughness>] = &[
-    ("× Base colour", |m| &mut m.textures.base_color),
-    ("× Metallic", |m| &mut m.textures.metallic),
-    ("× Roughness", |m| &mut m.textures.roughness),
-    ("× Specular", |m| &mut m.textures.specular),
-    ("× Specular colour", |m| &mut m.textures.specular_color),
-    ("× Transmission", |m| &mut m.textures.transmission),
-    ("× Clear coat", |m| &mut m.textures.clearcoat),
-    ("× Clear coat roughness", |m| {
-        &mut m.textures.clearcoat_roughness
-    }),
-    (COAT_NORMAL_MAP, |m| &mut m.textures.clearcoat_normal),
-    ("× Sheen colour", |m| &mut m.textures.sheen_color),
-    ("× Sheen roughness", |m| &mut m.textures.sheen_roughness),
-    ("× Anisotropy", |m| &mut m.textures.anisotropy),
-    ("× Iridescence", |m| &mut m.textures.iridescence),
-    (FILM_MAP, |m| &mut m.textures.iridescence_thickness),
-    ("× Diffuse transmission", |m| {
-        &mut m.textures.diffuse_transmission
-    }),
-    ("× Diffuse transmission colour", |m| {
-        &mut m.textures.diffuse_transmission_color
-    }),
-];
 
 /// A row with a number from 0 to 1.
 fn fraction(

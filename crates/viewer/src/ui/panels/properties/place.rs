@@ -14,22 +14,21 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
     let free = objects::freedom(fields.scene, id);
     let (shown, is_whole) = Transform::of(place);
     fields.heading("Transform");
-    let asked = |now: Transform| {
-        move |scene: &mut Scene| {
-            // Unedited numbers keep full precision.
-            let mut wanted = now.affine();
-            if (now.rotate_deg, now.scale) == (shown.rotate_deg, shown.scale) {
-                wanted.matrix3 = place.matrix3;
-            }
-            objects::set_place(scene, id, wanted, time)
+    let asked = move |scene: &mut Scene, now: Transform| {
+        // Unedited numbers keep full precision.
+        let mut wanted = now.affine();
+        if (now.rotate_deg, now.scale) == (shown.rotate_deg, shown.scale) {
+            wanted.matrix3 = place.matrix3;
         }
+        objects::set_place(scene, id, wanted, time)
     };
     if free.translate {
         let tip = "World-space position in scene units.";
-        let limits = Limits::LENGTH;
-        if let Some(translate) = fields.vector_value(("Position", tip), shown.translate, limits) {
-            fields.change("position", asked(Transform { translate, ..shown }));
-        }
+        let label = ("Position", tip);
+        fields.try_vector(label, shown.translate, Limits::LENGTH, move |scene, to| {
+            let translate = to;
+            asked(scene, Transform { translate, ..shown })
+        });
     }
     if !is_whole && (free.rotate || free.scale != Scaling::None) {
         fields.note(
@@ -39,16 +38,17 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
     }
     if free.rotate {
         let tip = "Euler angles about x, then y, then z, in degrees, counter-clockwise.";
-        let limits = Limits::ANGLE;
-        if let Some(rotate_deg) = fields.vector_value(("Rotation", tip), shown.rotate_deg, limits) {
-            fields.change(
-                "rotation",
-                asked(Transform {
+        let label = ("Rotation", tip);
+        fields.try_vector(label, shown.rotate_deg, Limits::ANGLE, move |scene, to| {
+            let rotate_deg = to;
+            asked(
+                scene,
+                Transform {
                     rotate_deg,
                     ..shown
-                }),
-            );
-        }
+                },
+            )
+        });
     }
     // The scale of a sphere is its radius, which has a row of its own.
     let is_sphere = matches!(id, Id::Object(ObjectRef::Shape(index))
@@ -57,17 +57,22 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
         Scaling::Uneven if !is_sphere => {
             let tip =
                 "Factors along the object's own axes. Negative factors mirror; 0 is not allowed.";
-            let limits = Limits::LENGTH;
-            let scale = fields.vector_value(("Scale", tip), shown.scale, limits);
-            let tip = "Change all three factors by the same ratio.";
             let is_linked = fields.option_value("Uniform scale", false);
+            fields.try_vector(
+                ("Scale", tip),
+                shown.scale,
+                Limits::LENGTH,
+                move |scene, to| {
+                    let scale = if is_linked {
+                        linked(shown.scale, to)
+                    } else {
+                        to
+                    };
+                    asked(scene, Transform { scale, ..shown })
+                },
+            );
+            let tip = "Change all three factors by the same ratio.";
             fields.option(("Uniform scale", tip), is_linked);
-            if let Some(mut scale) = scale {
-                if is_linked {
-                    scale = linked(shown.scale, scale);
-                }
-                fields.change("scale", asked(Transform { scale, ..shown }));
-            }
         }
         Scaling::Uneven | Scaling::Even | Scaling::None => {}
     }

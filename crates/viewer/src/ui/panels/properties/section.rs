@@ -38,8 +38,8 @@ pub fn show(fields: &mut Fields, session: &Session) {
         },
     );
     let tip = "Cut away what is nearer to the camera than the plane, which turns about the middle of the scene.";
-    let button = fields.ui.button("Face the camera").on_hover_text(tip);
-    if button.clicked() {
+    let button = fields.draw(|ui, _| ui.button("Face the camera").on_hover_text(tip));
+    if button.is_some_and(|button| button.clicked()) {
         fields.change("section plane", move |scene| {
             scene.section = Some(through(middle(scene), toward_camera));
             Ok(())

@@ -1,0 +1,55 @@
+//! A picture on its way from the disk to a material.
+
+use crate::model::file_dialog::Reply;
+use crate::model::texture_slots::TextureSlot;
+use crate::state::files::PictureRead;
+use glimray_scene::Picture;
+use std::path::PathBuf;
+use std::sync::Weak;
+use std::sync::mpsc::Receiver;
+
+/// Where a picture goes: the index of a material, and one of its slots.
+pub type TexturePlace = (usize, &'static TextureSlot);
+
+/// The state of opening pictures for materials.
+#[derive(Default)]
+pub struct Texturing {
+    pub(crate) opening: Option<(TexturePlace, Stage)>,
+    /// The names of the files of pictures that were opened.
+    pub(crate) names: Vec<(Weak<Picture>, String)>,
+}
+
+/// How far it has come.
+pub enum Stage {
+    /// The file dialog is open.
+    Asked(Receiver<Reply>),
+    /// The path is being typed.
+    Typed(Option<String>),
+    /// The file is read.
+    Reading(PathBuf, Receiver<PictureRead>),
+}
+
+impl Texturing {
+    /// Whether a file is being read.
+    pub fn is_busy(&self) -> bool {
+        matches!(self.opening, Some((_, Stage::Reading(..))))
+    }
+
+    /// Whether the path is being typed.
+    pub fn is_typing(&self) -> bool {
+        matches!(self.opening, Some((_, Stage::Typed(_))))
+    }
+
+    /// The path that is being typed.
+    pub fn typed(&mut self) -> Option<&mut Option<String>> {
+        match &mut self.opening {
+            Some((_, Stage::Typed(text))) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The names of the files of pictures that were opened.
+    pub fn names(&self) -> &[(Weak<Picture>, String)] {
+        &self.names
+    }
+}
