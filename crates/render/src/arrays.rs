@@ -278,6 +278,7 @@ impl<'a> Piece<'a> {
 }
 
 /// One of the arrays on the GPU.
+#[derive(Clone)]
 pub enum Rows {
     Image(wgpu::TextureView),
     Buffer(Buffer),

@@ -47,11 +47,38 @@ impl Buffers {
         uploads: &mut Uploads,
     ) -> Result<Self, GpuError> {
         let buffers = SceneBuffers::new(gpu, fetch, scene, view, uploads)?;
-        let scene_group = buffers.group(gpu, layouts);
+        uploads.frames += FRAME_BYTES;
+        Self::around(gpu, layouts, buffers, view, film_rows)
+    }
+
+    /// Other buffers for this scene and frame: dispatch parameters and a film of `film_rows` of their own. The scene is shared,
+    /// and replaced or destroyed with these.
+    pub fn beside(
+        &self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        view: &PackedView,
+        film_rows: usize,
+    ) -> Result<Self, GpuError> {
+        let shared = SceneBuffers {
+            fetch: self.scene.fetch,
+            buffers: self.scene.buffers.clone(),
+            on_device: None,
+        };
+        Self::around(gpu, layouts, shared, view, film_rows)
+    }
+
+    fn around(
+        gpu: &Gpu,
+        layouts: &Layouts,
+        scene: SceneBuffers,
+        view: &PackedView,
+        film_rows: usize,
+    ) -> Result<Self, GpuError> {
+        let scene_group = scene.group(gpu, layouts);
         let dispatch = gpu.allocate("dispatch", size_of::<PackedDispatch>() as u64, READABLE)?;
         let (film, staging) = film(gpu, film_rows)?;
-        let frame_group = frame_group(gpu, layouts, fetch, view, &dispatch)?;
-        uploads.frames += FRAME_BYTES;
+        let frame_group = frame_group(gpu, layouts, scene.fetch, view, &dispatch)?;
         let film_group = group(gpu, &layouts.film, &[film.as_entire_binding()]);
         Ok(Self {
             scene_group,
@@ -60,7 +87,7 @@ impl Buffers {
             dispatch,
             film,
             staging,
-            scene: buffers,
+            scene,
         })
     }
 

@@ -5,7 +5,7 @@ mod rays;
 pub use rays::{Coherence, QueryHit, QueryRay, RaySteps, RayTest};
 
 use super::{
-    ExecutionPolicy, LongPath, RenderError,
+    ExecutionPolicy, LongPath, RenderError, Renderer,
     arrays::{self, Array, Rows},
     bindings::{self, Buffers},
     device,
@@ -21,7 +21,7 @@ use crate::{
     pack::{PackedScene, PackedView},
 };
 use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec, pod_read_unaligned};
-use glimray_scene::clock::Instant;
+use glimray_scene::{ObjectRef, clock::Instant};
 use std::sync::Arc;
 
 /// Rays of a workgroup.
@@ -115,6 +115,35 @@ impl RayQuery {
             scene,
             view: view.clone(),
         })
+    }
+
+    /// Traces rays through what a renderer renders, and shares its scene on the device. Only the results need memory.
+    ///
+    /// The query must not be used after the renderer was given another scene, frame or device.
+    ///
+    /// # Errors
+    /// The device failed, or has no room for the results.
+    pub fn beside(renderer: &Renderer) -> Result<Self, RenderError> {
+        let device = &renderer.device;
+        let (gpu, fetch) = (device.gpu.clone(), device.fetch);
+        let (scene, view) = (renderer.scene.clone(), renderer.view.clone());
+        gpu.check_limits(bindings::needs(&scene, &view, fetch, MAX_RAYS))?;
+        let layouts = Layouts::new(&gpu, fetch);
+        let buffers = device.buffers.beside(&gpu, &layouts, &view, MAX_RAYS)?;
+        Ok(Self {
+            gpu,
+            fetch,
+            as_packets: renderer.policy.fetch.allows_packets(),
+            layouts,
+            buffers,
+            scene,
+            view,
+        })
+    }
+
+    /// The object of a hit; `None` if it belongs to none.
+    pub fn object_of(&self, hit: &QueryHit) -> Option<ObjectRef> {
+        (self.scene).object_at(&self.view, hit.primitive, hit.instance)
     }
 
     /// Bytes of a node of the tree on the device: 64 with planes as bytes, 112 with planes as floats.
