@@ -2,6 +2,7 @@
 
 pub mod adding;
 pub mod answers;
+pub mod box_select;
 pub(crate) mod commands;
 pub mod comparing;
 pub mod cursor;
@@ -12,6 +13,7 @@ pub mod histogram;
 pub mod inspector;
 mod keyboard;
 pub mod lighting;
+pub mod measuring;
 pub mod modal;
 pub mod output_defaults;
 pub mod pixel_values;
@@ -19,6 +21,7 @@ pub mod region;
 pub mod saving;
 pub mod selecting;
 pub mod settings;
+pub mod sight;
 mod surface;
 pub mod texturing;
 pub mod tools;

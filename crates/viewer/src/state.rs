@@ -15,6 +15,7 @@ pub mod layout;
 pub mod picture_menu;
 pub mod pixel_values;
 pub mod session;
+pub mod sight;
 pub mod target;
 pub mod texturing;
 pub mod time_left;

@@ -4,6 +4,7 @@ use crate::actions::comparing;
 use crate::actions::files::pictures;
 use crate::actions::inspector;
 use crate::actions::pixel_values;
+use crate::actions::sight;
 use crate::actions::tools;
 use crate::state::answer::Answer;
 use crate::state::session::Session;
@@ -20,6 +21,7 @@ impl Session {
             Answer::PixelValues(pixels) => pixel_values::read(self, pixels),
             Answer::Snapshot(snapshot) => comparing::kept(self, *snapshot),
             Answer::Bookmarked(scene, saved) => self.preferences.picture_camera(&scene, &saved),
+            Answer::Seen(seen) => sight::take(self, seen),
             Answer::Nothing => {}
             Answer::Copied(image) => self.files.copied = Some(image),
             Answer::Picture(picture) => pictures::captured(self, *picture),

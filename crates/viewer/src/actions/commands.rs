@@ -2,7 +2,8 @@
 
 use crate::actions::keyboard::Keyboard;
 use crate::actions::{
-    adding, comparing, dialogs, editing, files, lighting, modal, saving, selecting, tools, walk,
+    adding, comparing, dialogs, editing, files, lighting, measuring, modal, saving, selecting,
+    tools, walk,
 };
 use crate::model::bindings::Action;
 use crate::model::camera::{CameraController, CameraHistory, Flight, Side};
@@ -106,7 +107,8 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         | Action::FlyDown
         | Action::FlyFaster
         | Action::SnapHandles
-        | Action::FineHandles => {}
+        | Action::FineHandles
+        | Action::SelectBox => {}
         Action::SetPivot | Action::FocusHere | Action::Select | Action::PictureMenu => {
             tools::pick_under_cursor(session, action, ctx);
         }
@@ -210,7 +212,10 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
             session.begin_rename();
         }
         Action::Duplicate => selecting::duplicate(session),
+        Action::Delete if measuring::remove(session) => {}
         Action::Delete => selecting::remove(session),
+        Action::CopyMeasurements => measuring::copy(session, ctx),
+        Action::ToggleSnapping => toggle_snapping(session),
         Action::Undo => editing::undo(session),
         Action::Redo => editing::redo(session),
         Action::New => files::intend(session, Intent::New),
@@ -237,6 +242,11 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
             layout.set_visible(Panel::Outline, !visible);
         }
         Action::ToggleOverlays => session.shows_overlays = !session.shows_overlays,
+        Action::ToggleOutlines
+        | Action::ToggleGrid
+        | Action::ToggleWireframe
+        | Action::ToggleFeatureEdges
+        | Action::ToggleSectionHandle => toggle_overlay(session, action),
         Action::ToggleStatistics => session.shows_statistics = !session.shows_statistics,
         Action::ToggleTheme => session.preferences.theme = other_theme(ctx.theme()),
         Action::LargerText => session.preferences.enlarge(),
@@ -248,6 +258,22 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         }
         Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
     }
+}
+
+/// Shows or hides an overlay. One that is shown brings the others back.
+fn toggle_overlay(session: &mut Session, action: Action) {
+    if let Some(is_shown) = session.overlays.of(action) {
+        *is_shown = !*is_shown || !session.shows_overlays;
+        session.shows_overlays |= *is_shown;
+    }
+}
+
+fn toggle_snapping(session: &mut Session) {
+    session.snaps = !session.snaps;
+    session.messages.notify(match session.snaps {
+        true => "Snapping is on",
+        false => "Snapping is off",
+    });
 }
 
 /// Changes the camera if there is one.
@@ -316,9 +342,13 @@ fn leave(session: &mut Session) {
     if dialogs::close_uppermost(session) {
         return;
     }
-    let is_held = session.editing.grip.is_some() || session.editing.lamp.is_some();
+    let editing = &session.editing;
+    let is_held = editing.grip.is_some() || editing.lamp.is_some() || editing.section.is_some();
     if is_held || lighting::is_turning(session) {
         modal::cancel(session);
+        return;
+    }
+    if session.tool_state.frame.take().is_some() {
         return;
     }
     if session.tool_state.focuses.take().is_some() {

@@ -75,6 +75,7 @@ pub fn cancel(session: &mut Session) {
     session.drag = None;
     session.editing.grip = None;
     session.editing.lamp = None;
+    session.editing.section = None;
     session.editing.modal = None;
     if let Some(document) = &mut session.document {
         document.cancel();

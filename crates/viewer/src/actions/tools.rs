@@ -2,7 +2,7 @@
 
 use crate::actions::editing::camera_in_world;
 use crate::actions::surface::surface_at;
-use crate::actions::{inspector, lighting, modal};
+use crate::actions::{inspector, lighting, measuring, modal};
 use crate::model::bindings::{Action, Drag};
 use crate::model::camera::CameraController;
 use crate::model::objects::Id;
@@ -15,11 +15,10 @@ use crate::state::session::Session;
 use crate::worker::progressive_image::Progress;
 use eframe::egui::{self, LayerId, PointerButton, Pos2, Vec2};
 use glam::{DVec2, DVec3};
-use glimray_app::legend::number;
 use glimray_scene::ObjectRef;
 
 /// All mouse buttons.
-const BUTTONS: [PointerButton; 5] = [
+pub const BUTTONS: [PointerButton; 5] = [
     PointerButton::Primary,
     PointerButton::Middle,
     PointerButton::Secondary,
@@ -35,9 +34,10 @@ pub fn activate(session: &mut Session, layout: &mut Layout, tool: Tool) {
         Tool::Region if session.view.region.take().is_some() => session.tool = Tool::Select,
         Tool::Measure => {
             session.tool_state.measured.clear();
+            session.tool_state.kept.clear();
             session.tool = tool;
         }
-        Tool::Select | Tool::Region => session.tool = tool,
+        Tool::Select | Tool::Box | Tool::Region => session.tool = tool,
     }
 }
 
@@ -203,8 +203,8 @@ fn pick(session: &mut Session, action: Action, point: Pos2, pixel: [u32; 2]) {
                 inspector::inspect(session, pixel);
                 return;
             }
-            Tool::Measure => Purpose::Measure,
-            Tool::Select | Tool::Region | Tool::Move | Tool::Rotate | Tool::Scale => {
+            Tool::Measure => Purpose::Measure(pixel),
+            Tool::Select | Tool::Box | Tool::Region | Tool::Move | Tool::Rotate | Tool::Scale => {
                 Purpose::Select
             }
         },
@@ -264,13 +264,7 @@ pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Optio
                 menu.point = hit.map(|(point, _)| point);
             }
         }
-        (Purpose::Measure, Some((point, _))) => {
-            session.tool_state.measure(point);
-            if let Some([a, b]) = session.tool_state.measured_line() {
-                let distance = number(a.distance(b) as f32);
-                session.messages.notify(format!("Distance: {distance}"));
-            }
-        }
+        (Purpose::Measure(pixel), hit) => measuring::picked(session, pixel, hit),
         (_, None) => session.messages.notify("Nothing is under the cursor"),
     }
 }

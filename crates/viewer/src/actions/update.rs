@@ -18,9 +18,12 @@ pub fn reopened(session: &mut Session) {
     inspector::reopened(session);
     session.drag = None;
     session.walk = None;
+    session.sight.reopened();
     session.tool_state.region = None;
+    session.tool_state.frame = None;
     session.editing.grip = None;
     session.editing.lamp = None;
+    session.editing.section = None;
     session.editing.modal = None;
 }
 

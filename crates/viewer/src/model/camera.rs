@@ -17,7 +17,7 @@ mod project;
 
 pub use history::CameraHistory;
 pub use pose::{Pose, Upright};
-pub use project::{project, project_line, ray_through};
+pub use project::{distance_along, project, project_line, ray_through};
 
 use glam::{DVec2, DVec3};
 use glimray_scene::{Camera, Lens};

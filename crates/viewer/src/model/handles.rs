@@ -5,13 +5,16 @@
 mod amounts;
 pub mod lamp;
 
-use crate::model::camera::{project, ray_through};
+use crate::model::camera::{distance_along, project, ray_through};
+use crate::model::grid;
 use crate::model::objects::{Freedom, Scaling};
 use crate::model::tool::Tool;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use glimray_scene::Camera;
 use std::f64::consts::{PI, TAU};
 
+/// Length of handles on the screen, in points.
+pub const LENGTH: f32 = 84.0;
 /// Segments of a ring.
 const RING_LINES: usize = 64;
 /// Start and end of the plane squares, as fractions of the handle length.
@@ -20,9 +23,11 @@ const SQUARE: (f64, f64) = (0.28, 0.46);
 const OUTER: f64 = 1.2;
 /// Sine of the angle between plane and viewing direction below which a plane handle is unusable.
 const EDGE_ON: f64 = 0.15;
-/// Snapping steps for angles and factors.
+/// Snapping steps for angles and factors, and finer ones.
 const SNAP_ANGLE: f64 = PI / 12.0;
+const FINE_ANGLE: f64 = PI / 36.0;
 const SNAP_FACTOR: f64 = 0.1;
+const FINE_FACTOR: f64 = 0.01;
 /// Fraction of the motion that counts in fine mode.
 const FINE: f64 = 0.1;
 
@@ -37,6 +42,30 @@ pub enum Part {
     Ring(usize),
     /// In the plane of the picture, around the viewing direction, or uniformly.
     All,
+}
+
+/// How a drag is rounded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Snap {
+    /// Not at all.
+    #[default]
+    Off,
+    /// To whole steps: of the grid at that distance, 15°, or 0.1.
+    Whole,
+    /// To finer steps: a tenth of the grid, 5°, or 0.01.
+    Fine,
+}
+
+impl Snap {
+    /// A number rounded to steps of these sizes.
+    fn round(self, value: f64, whole: f64, fine: f64) -> f64 {
+        let step = match self {
+            Self::Off => return value,
+            Self::Whole => whole,
+            Self::Fine => fine,
+        };
+        (value / step).round() * step
+    }
 }
 
 /// The view in which the handles are used.
@@ -71,6 +100,14 @@ impl Eye<'_> {
             None => 2.0 * self.depth(point) * (self.camera.fov_y / 2.0).tan(),
         };
         height / self.size.y
+    }
+
+    /// The point of a line in the world that a position in the picture shows, and its distance from where the ray through that
+    /// position begins.
+    pub fn distance_along(&self, line: (DVec3, DVec3), at: DVec2) -> Option<(DVec3, f64)> {
+        let distance = distance_along(self.camera, line, at, self.size)?;
+        let (origin, direction) = ray_through(self.camera, at, self.size);
+        Some((origin + direction * distance, distance))
     }
 
     /// Unit direction from the camera to a point.
@@ -249,8 +286,8 @@ impl Grip {
     }
 
     /// The resulting transform; `None` where the pointer has no solution, such as beyond the horizon of a
-    /// plane. `snap` rounds to whole steps.
-    pub fn dragged(&self, eye: Eye, snap: bool) -> Option<Dragged> {
+    /// plane.
+    pub fn dragged(&self, eye: Eye, snap: Snap) -> Option<Dragged> {
         match self.handles.tool {
             Tool::Move => self.moved(eye, snap),
             Tool::Rotate => self.turned(eye, snap),
@@ -269,15 +306,15 @@ impl Grip {
         Some((at(self.from)?, at(self.to)?))
     }
 
-    fn moved(&self, eye: Eye, snap: bool) -> Option<Dragged> {
+    fn moved(&self, eye: Eye, snap: Snap) -> Option<Dragged> {
         let Handles {
             origin,
             axes,
             reach,
             ..
         } = self.handles;
-        let step = 10_f64.powf(reach.log10().floor());
-        let whole = |v: f64| if snap { (v / step).round() * step } else { v };
+        let step = grid::step(reach / f64::from(LENGTH));
+        let whole = |v: f64| snap.round(v, step, step / 10.0);
         let in_plane = |normal| {
             let at = |position| on_plane(self.ray(eye, position), origin, normal);
             Some(at(self.to)? - at(self.from)?)
@@ -300,7 +337,7 @@ impl Grip {
         Some(self.moved_by(way))
     }
 
-    fn turned(&self, eye: Eye, snap: bool) -> Option<Dragged> {
+    fn turned(&self, eye: Eye, snap: Snap) -> Option<Dragged> {
         let Handles {
             origin,
             axes,
@@ -322,13 +359,11 @@ impl Grip {
             let way = at(self.to)? - at(self.from)?;
             way.dot(axis.cross(-toward).normalize_or_zero()) / reach
         };
-        if snap {
-            angle = (angle / SNAP_ANGLE).round() * SNAP_ANGLE;
-        }
+        angle = snap.round(angle, SNAP_ANGLE, FINE_ANGLE);
         Some(self.turned_by(axis, angle))
     }
 
-    fn scaled(&self, eye: Eye, snap: bool) -> Option<Dragged> {
+    fn scaled(&self, eye: Eye, snap: Snap) -> Option<Dragged> {
         let mut factor = match self.part {
             Part::Axis(axis) => {
                 let (from, to) = self.along(eye, self.handles.axes[axis])?;
@@ -341,9 +376,7 @@ impl Grip {
                 1.0 + (way.x - way.y) / length
             }
         };
-        if snap {
-            factor = (factor / SNAP_FACTOR).round() * SNAP_FACTOR;
-        }
+        factor = snap.round(factor, SNAP_FACTOR, FINE_FACTOR);
         Some(self.scaled_by(factor))
     }
 }

@@ -11,7 +11,7 @@ pub use frame::{of_geometry, of_light};
 pub use names::{Labels, name, rename, unused_name};
 pub use parent::set_parent;
 pub use place::{Freedom, Scaling, freedom, place, place_in, set_place};
-pub use scope::{bounds, hide_others, is_there, same, show_all, subject};
+pub use scope::{bounds, carried_by, hide_others, is_there, same, show_all, subject};
 pub use several::{common_place, movable, transform};
 
 use glimray_scene::{Node, ObjectRef, Scene, Target, is_numbered};

@@ -5,7 +5,8 @@
 //! `ui/panels/sign.rs`.
 
 use super::region;
-use glam::DVec3;
+use eframe::egui::Pos2;
+use glam::{DVec2, DVec3};
 
 /// A row of the table of tools.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +62,15 @@ tools! {
         title: "Select tool",
         description: "Select tool: click an object to select it",
         shortcuts: ["C", "C", "Q"],
+        menu: ToolMenu::Edit,
+        has_handles: false,
+    }
+    /// A drag selects what is in a rectangle.
+    Box {
+        name: "box-select",
+        title: "Box select",
+        description: "Box select: drag a rectangle; Shift adds, Ctrl removes",
+        shortcuts: ["Alt+B", "B", "Alt+B"],
         menu: ToolMenu::Edit,
         has_handles: false,
     }
@@ -125,25 +135,76 @@ tools! {
 pub struct ToolState {
     /// The edge or corner of the render region that is being dragged.
     pub region: Option<region::Grip>,
-    /// The measured points in world space, at most two.
+    /// The points of the current measurement in world space, at most two.
     pub measured: Vec<DVec3>,
+    /// The ends of the measurements before it.
+    pub kept: Vec<[DVec3; 2]>,
+    /// The rectangle that is being drawn.
+    pub frame: Option<BoxDrag>,
+    /// The corners of the rectangle that was drawn, in pixels of the picture, until it is known what they show.
+    pub boxed: Option<([DVec2; 2], BoxMode)>,
     /// The index of the camera whose focus the next click sets.
     pub focuses: Option<usize>,
 }
 
 impl ToolState {
-    /// Adds a point to the measurement; a third one starts another.
+    /// Adds a point to the measurement; a third one starts another and keeps this one.
     pub fn measure(&mut self, point: DVec3) {
+        self.kept.extend(self.measured_line());
         if self.measured.len() == 2 {
             self.measured.clear();
         }
         self.measured.push(point);
     }
 
+    /// All measurements, the oldest first.
+    pub fn measurements(&self) -> Vec<[DVec3; 2]> {
+        let last = self.measured_line();
+        self.kept.iter().copied().chain(last).collect()
+    }
+
+    /// Removes the last measurement, or its first point. Returns whether there was one.
+    pub fn remove_measurement(&mut self) -> bool {
+        match self.measured.is_empty() {
+            true => self.kept.pop().is_some(),
+            false => {
+                self.measured.clear();
+                true
+            }
+        }
+    }
+
+    /// Whether it must become known what the pixels of the picture show.
+    pub fn waits_for_sight(&self) -> bool {
+        self.frame.is_some() || self.boxed.is_some()
+    }
+
     /// Both measured points; `None` before there are two.
     pub fn measured_line(&self) -> Option<[DVec3; 2]> {
         self.measured[..].try_into().ok()
     }
+}
+
+/// A rectangle that is being drawn, on the screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoxDrag {
+    /// Where the drag began.
+    pub from: Pos2,
+    /// Where the pointer is.
+    pub to: Pos2,
+    /// What it does with the selection.
+    pub mode: BoxMode,
+}
+
+/// The effect of a rectangle on the selection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BoxMode {
+    /// Selects nothing else.
+    Only,
+    /// Adds what is in it.
+    Add,
+    /// Takes out what is in it.
+    Remove,
 }
 
 /// The purpose of a pick.
@@ -161,8 +222,8 @@ pub enum Purpose {
     AimLamp,
     /// Select it.
     Select,
-    /// Measure the distance from or to it.
-    Measure,
+    /// Measure the distance from or to what this pixel shows.
+    Measure([u32; 2]),
     /// Tell what the menu is about.
     Menu,
 }

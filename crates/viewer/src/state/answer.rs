@@ -8,6 +8,7 @@ use crate::state::cursor::Probe;
 use crate::state::files::Captured;
 use crate::state::inspector::{Inspected, Parts};
 use crate::state::pixel_values::ReadPixels;
+use crate::state::sight::Seen;
 use glam::DVec3;
 use glimray_scene::ObjectRef;
 use glimray_scene::image::ScreenImage;
@@ -37,6 +38,8 @@ pub enum Answer {
     Snapshot(Box<Snapshot>),
     /// A bookmark of the scene with this key, with its small picture.
     Bookmarked(PathBuf, Box<SavedCamera>),
+    /// What the pixels of the picture show; `None` if it is another picture by now.
+    Seen(Option<Box<Seen>>),
     /// No result.
     Nothing,
     /// The picture as the window shows it, for the clipboard.

@@ -5,7 +5,7 @@ use crate::model::handles::Grip;
 use crate::model::handles::lamp::LampGrip;
 use crate::model::listing::Listing;
 use crate::model::modal::Modal;
-use crate::model::objects::Id;
+use crate::model::objects::{self, Id};
 use eframe::egui::{self, Pos2};
 use glam::DVec3;
 use glimray_render::Integrator;
@@ -24,6 +24,8 @@ pub struct Editing {
     pub lamp: Option<(LampGrip, Pos2)>,
     /// The lamp that waits for the surface at which it is to aim, and the scene in which it was dropped.
     pub(crate) aimed: Option<(usize, Arc<Scene>)>,
+    /// The dragged handle of the section plane and the last pointer position.
+    pub section: Option<(Grip, Pos2)>,
     /// A modal transform, which holds the grip.
     pub modal: Option<Modal>,
     /// Where on the screen the menu of what can be added is.
@@ -52,12 +54,14 @@ pub struct Editing {
     pub(crate) lit: Option<(Arc<Scene>, Integrator, Option<Background>)>,
     /// The warning that the scene has no light, while it applies.
     pub(crate) darkness: Option<&'static str>,
+    /// Cached bounds of what can be seen.
+    pub(crate) subject: Option<(Arc<Scene>, Bounds)>,
     /// Cached bounds of a mesh.
     pub(crate) mesh_box: Option<(Arc<Mesh>, Bounds)>,
 }
 
 /// Minimum and maximum corner of a box; `None` without bounds.
-type Bounds = Option<(DVec3, DVec3)>;
+pub type Bounds = Option<(DVec3, DVec3)>;
 
 impl Default for Editing {
     fn default() -> Self {
@@ -66,6 +70,7 @@ impl Default for Editing {
             grip: None,
             lamp: None,
             aimed: None,
+            section: None,
             modal: None,
             adding_at: Pos2::ZERO,
             renaming: None,
@@ -80,6 +85,7 @@ impl Default for Editing {
             owes_bounds: false,
             lit: None,
             darkness: None,
+            subject: None,
             mesh_box: None,
         }
     }
@@ -94,6 +100,18 @@ impl Editing {
     /// Called when the scene's file is no longer one that was saved from this window.
     pub fn forget_written(&mut self) {
         self.written = None;
+    }
+
+    /// Bounds of the visible geometry, in world space. While a handle of the section plane is dragged they stay the same.
+    pub fn subject_of(&mut self, scene: &Arc<Scene>) -> Bounds {
+        match &self.subject {
+            Some((known, bounds)) if Arc::ptr_eq(known, scene) || self.section.is_some() => *bounds,
+            _ => {
+                let bounds = objects::subject(scene);
+                self.subject = Some((scene.clone(), bounds));
+                bounds
+            }
+        }
     }
 
     /// Bounds of a mesh in its own space.

@@ -11,6 +11,7 @@ use crate::model::loader::Loader;
 use crate::model::messages::Messages;
 use crate::model::objects;
 use crate::model::objects::Id;
+use crate::model::overlays::Overlays;
 use crate::model::playback::Playback;
 use crate::model::preferences::{Preferences, Store};
 use crate::model::recording::InputRecording;
@@ -28,6 +29,7 @@ use crate::state::histogram::HistogramView;
 use crate::state::inspector::Inspector;
 use crate::state::picture_menu::PictureMenu;
 use crate::state::pixel_values::PixelValues;
+use crate::state::sight::SightState;
 use crate::state::time_left::TimeLeft;
 use crate::state::walk::Walk;
 use crate::worker::progressive_image::FrameRenderer;
@@ -102,6 +104,12 @@ pub struct Session {
     pub shows_statistics: bool,
     /// Whether overlays are visible.
     pub shows_overlays: bool,
+    /// Which of them are.
+    pub overlays: Overlays,
+    /// Whether moves, rotations and scales snap without a key.
+    pub snaps: bool,
+    /// What the pixels of the picture show.
+    pub sight: SightState,
     /// Whether inspected rays are drawn over the picture too.
     pub shows_path: bool,
     /// The stills to compare with.
@@ -188,6 +196,9 @@ impl Session {
             pixel_zoom: PixelZoom::default(),
             shows_statistics: true,
             shows_overlays: true,
+            overlays: Overlays::default(),
+            snaps: false,
+            sight: SightState::default(),
             shows_path: true,
             comparing: Comparing::default(),
             unflipped: None,

@@ -4,21 +4,21 @@ mod lamp;
 
 use crate::actions::editing;
 use crate::model::bindings::Action;
-use crate::model::handles::{Eye, Grip, Handles, Part};
+use crate::model::handles::{Eye, Grip, Handles, LENGTH, Part, Snap};
 use crate::model::modal::Modal;
 use crate::model::objects;
 use crate::model::objects::Id;
 use crate::model::tool::Tool;
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;
+use crate::ui::silhouette;
 use crate::ui::world_painter::{SHADE, WorldPainter};
 use eframe::egui::{self, Color32, Painter, Pos2, Shape, Stroke};
 use glam::{DAffine3, DVec3};
 use glimray_scene::{Camera, Frame, Geometry, ObjectRef, Scene, corners};
 
-/// Length of handles, and the distance for hit testing, in points.
-const LENGTH: f32 = 84.0;
-const SLACK: f32 = 7.0;
+/// The distance for hit testing, in points.
+pub(in crate::ui) const SLACK: f32 = 7.0;
 /// Colours of x, y and z: legible on black and on white.
 pub(in crate::ui) const COLORS: [Color32; 3] = [
     Color32::from_rgb(235, 64, 72),
@@ -29,7 +29,6 @@ pub(in crate::ui) const COLORS: [Color32; 3] = [
 const MOST_OUTLINES: usize = 256;
 const ALL: Color32 = Color32::from_gray(235);
 const HOT: Color32 = Color32::from_rgb(255, 214, 64);
-const SELECTED: Color32 = Color32::from_rgb(255, 160, 32);
 
 /// Draws the selection and its handles, and handles drags of them. Returns whether the mouse is consumed.
 pub fn overlay(
@@ -61,7 +60,13 @@ pub fn overlay(
         viewport,
         eye,
     };
-    view.lines(&outlines(session, &scene, &selected, &view), SELECTED);
+    if session.overlays.outline {
+        let marks = silhouette::draw(session, &view, &selected);
+        let firm = outlines(session, &scene, &marks.firm, &view);
+        view.lines(&firm, silhouette::LEAD);
+        let faint = outlines(session, &scene, &marks.faint, &view);
+        view.thin_lines(&faint, silhouette::OTHER.gamma_multiply(0.5));
+    }
     if lamp::handles(session, &scene, &selected, response, &view) {
         return true;
     }
@@ -78,16 +83,9 @@ pub fn overlay(
         return false;
     };
     let ctx = &response.ctx;
-    let bindings = &session.preferences.bindings;
-    let (pointer, pressed, is_fine, snaps) = ctx.input(|input| {
-        let pointer = &input.pointer;
-        (
-            pointer.latest_pos(),
-            pointer.press_origin(),
-            bindings.is_held(Action::FineHandles, input),
-            bindings.is_held(Action::SnapHandles, input),
-        )
-    });
+    let (pointer, pressed) =
+        ctx.input(|input| (input.pointer.latest_pos(), input.pointer.press_origin()));
+    let (is_fine, snap) = held(session, ctx);
     let part_at = |at: Pos2| handles.part_at(eye, viewport.position(at), pixels(SLACK));
     if response.drag_started_by(egui::PointerButton::Primary)
         && let Some(pressed) = pressed
@@ -115,7 +113,7 @@ pub fn overlay(
     }
     let Some((mut grip, last)) = session.editing.grip.take() else {
         let hovered = pointer.filter(|_| response.hovered()).and_then(part_at);
-        draw_handles(&view, &handles, hovered);
+        draw_handles(&view, &handles, hovered, None);
         if hovered.is_some() {
             ctx.set_cursor_icon(egui::CursorIcon::Grab);
         }
@@ -128,9 +126,9 @@ pub fn overlay(
         Some(modal) => {
             grip.part = modal.part(&grip.handles);
             let exact = modal.amount().map(|amount| grip.by(eye, amount));
-            exact.or_else(|| grip.dragged(eye, snaps))
+            exact.or_else(|| grip.dragged(eye, snap))
         }
-        None => grip.dragged(eye, snaps),
+        None => grip.dragged(eye, snap),
     };
     let mut shown = handles;
     if let Some(dragged) = dragged {
@@ -163,7 +161,7 @@ pub fn overlay(
         };
     }
     ctx.set_cursor_icon(egui::CursorIcon::Grabbing);
-    draw_handles(&view, &shown, Some(grip.part));
+    draw_handles(&view, &shown, Some(grip.part), None);
     match modal {
         Some(modal) if !modal.is_confirmed => {
             session.editing.grip = Some((grip, now));
@@ -182,6 +180,20 @@ pub fn overlay(
     true
 }
 
+/// Whether a drag is slow, and how it is rounded: by the keys that are held, and the switch of the toolbar.
+pub(in crate::ui) fn held(session: &Session, ctx: &egui::Context) -> (bool, Snap) {
+    let bindings = &session.preferences.bindings;
+    let [is_fine, is_other] = ctx.input(|input| {
+        [Action::FineHandles, Action::SnapHandles].map(|action| bindings.is_held(action, input))
+    });
+    let snap = match (session.snaps != is_other, is_fine) {
+        (false, _) => Snap::Off,
+        (true, false) => Snap::Whole,
+        (true, true) => Snap::Fine,
+    };
+    (is_fine, snap)
+}
+
 /// Ends drags without a selection.
 fn let_go(session: &mut Session) {
     session.editing.grip = None;
@@ -189,8 +201,13 @@ fn let_go(session: &mut Session) {
     session.editing.modal = None;
 }
 
-/// Draws handles, the one under the cursor highlighted.
-fn draw_handles(view: &WorldPainter, handles: &Handles, hot: Option<Part>) {
+/// Draws handles in the colours of their axes or in one colour, the one under the cursor highlighted.
+pub(in crate::ui) fn draw_handles(
+    view: &WorldPainter,
+    handles: &Handles,
+    hot: Option<Part>,
+    tint: Option<Color32>,
+) {
     let mut parts = handles.parts.clone();
     // The nearest part is drawn last.
     let depth = |part: &Part| match part {
@@ -202,16 +219,22 @@ fn draw_handles(view: &WorldPainter, handles: &Handles, hot: Option<Part>) {
     };
     parts.sort_by(|a, b| depth(b).total_cmp(&depth(a)));
     for part in parts {
-        draw_handle(view, handles, part, hot == Some(part));
+        draw_handle(view, handles, part, hot == Some(part), tint);
     }
 }
 
-fn draw_handle(view: &WorldPainter, handles: &Handles, part: Part, is_hot: bool) {
+fn draw_handle(
+    view: &WorldPainter,
+    handles: &Handles,
+    part: Part,
+    is_hot: bool,
+    tint: Option<Color32>,
+) {
     let own = match part {
         Part::Axis(axis) | Part::Plane(axis) | Part::Ring(axis) => COLORS[axis],
         Part::All => ALL,
     };
-    let color = if is_hot { HOT } else { own };
+    let color = if is_hot { HOT } else { tint.unwrap_or(own) };
     let line = handles.line(part, view.eye);
     let points: Option<Vec<Pos2>> = (line.iter())
         .map(|point| Some(view.viewport.point(view.eye.project(*point)?)))
@@ -337,7 +360,7 @@ fn edges(
     }
 }
 
-fn cuboid(bounds: (DVec3, DVec3), place: DAffine3) -> Vec<[DVec3; 2]> {
+pub(in crate::ui) fn cuboid(bounds: (DVec3, DVec3), place: DAffine3) -> Vec<[DVec3; 2]> {
     let corners = corners(bounds).map(|corner| place.transform_point3(corner));
     let edges = (0..8).flat_map(|i| [1, 2, 4].map(|bit| (i, i | bit)));
     edges

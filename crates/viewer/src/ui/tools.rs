@@ -3,13 +3,13 @@
 use crate::actions::lighting;
 use crate::model::environment::BackgroundLight;
 use crate::model::handles::Eye;
-use crate::model::tool::Tool;
+use crate::model::tool::{BoxMode, Tool};
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;
 use crate::ui::panels::rays;
 use crate::ui::sun_dial::SunDial;
 use crate::ui::world_painter::{SHADE, WorldPainter, inside};
-use eframe::egui::{Color32, Painter, Rect, Stroke, StrokeKind, Vec2, vec2};
+use eframe::egui::{Align2, Color32, FontId, Painter, Rect, Stroke, StrokeKind, Vec2, vec2};
 use glimray_app::legend::number;
 
 /// Radius of the map of the sky, in points.
@@ -20,6 +20,7 @@ const MEASURE: Color32 = Color32::from_rgb(255, 214, 64);
 /// Draws the overlay of the active tool.
 pub fn draw(painter: &Painter, session: &Session, viewport: Viewport) {
     turned_light(painter, session, viewport);
+    frame(painter, session);
     if !session.shows_overlays {
         return;
     }
@@ -31,7 +32,7 @@ pub fn draw(painter: &Painter, session: &Session, viewport: Viewport) {
             }
         }
         Tool::Measure => measurement(painter, session, viewport),
-        Tool::Select | Tool::Region | Tool::Move | Tool::Rotate | Tool::Scale => {}
+        Tool::Select | Tool::Box | Tool::Region | Tool::Move | Tool::Rotate | Tool::Scale => {}
     }
 }
 
@@ -65,7 +66,7 @@ fn turned_light(painter: &Painter, session: &Session, viewport: Viewport) {
     }
 }
 
-/// Draws the measured points, the line between them and its length.
+/// Draws all measurements: their points, the lines between them and their lengths.
 fn measurement(painter: &Painter, session: &Session, viewport: Viewport) {
     let Some(camera) = session.camera() else {
         return;
@@ -78,21 +79,52 @@ fn measurement(painter: &Painter, session: &Session, viewport: Viewport) {
             size: viewport.extent(),
         },
     };
-    let line = session.tool_state.measured_line();
-    if let Some(ends) = line {
-        view.lines(&[ends], MEASURE);
-    }
-    for point in &session.tool_state.measured {
+    let state = &session.tool_state;
+    let lines = state.measurements();
+    view.lines(&lines, MEASURE);
+    let ends = lines.iter().flatten().chain(&state.measured);
+    for point in ends {
         if let Some(at) = view.eye.project(*point) {
             let border = Stroke::new(1.5, SHADE);
             painter.circle(viewport.point(at), 4.0, MEASURE, border);
         }
     }
-    if let Some([a, b]) = line
-        && let Some([from, to]) = view.segment([a, b])
-    {
-        let beside = from.lerp(to, 0.5) + vec2(8.0, -8.0);
-        view.text(beside, &number(a.distance(b) as f32));
+    let current = state.measured_line();
+    for ends in lines {
+        let [a, b] = ends;
+        let Some([from, to]) = view.segment(ends) else {
+            continue;
+        };
+        let number = |length: f64| number(length as f32);
+        let mut text = number(a.distance(b));
+        if current == Some(ends) {
+            let [x, y, z] = (b - a).to_array().map(number);
+            text += &format!("   Δx {x}   Δy {y}   Δz {z}");
+        }
+        view.text(from.lerp(to, 0.5) + vec2(8.0, -8.0), &text);
+    }
+}
+
+/// Draws the rectangle of a box selection.
+fn frame(painter: &Painter, session: &Session) {
+    let Some(drag) = session.tool_state.frame else {
+        return;
+    };
+    let rect = Rect::from_two_pos(drag.from, drag.to);
+    let (ink, sign) = match drag.mode {
+        BoxMode::Only => (Color32::WHITE, None),
+        BoxMode::Add => (Color32::from_rgb(150, 230, 120), Some("+")),
+        BoxMode::Remove => (Color32::from_rgb(255, 140, 130), Some("−")),
+    };
+    painter.rect_filled(rect, 0.0, ink.gamma_multiply(0.08));
+    let dark = Stroke::new(3.0, SHADE);
+    painter.rect_stroke(rect, 0.0, dark, StrokeKind::Middle);
+    let bright = Stroke::new(1.0, ink);
+    painter.rect_stroke(rect, 0.0, bright, StrokeKind::Middle);
+    if let Some(sign) = sign {
+        let at = drag.to + vec2(14.0, 14.0);
+        let font = FontId::proportional(20.0);
+        painter.text(at, Align2::CENTER_CENTER, sign, font, ink);
     }
 }
 

@@ -29,6 +29,20 @@ impl WorldPainter<'_> {
         }
     }
 
+    /// The parts of the screen that the picture takes, and that can be seen.
+    pub fn place(&self) -> [Rect; 2] {
+        [self.viewport.rect, self.painter.clip_rect()]
+    }
+
+    /// Draws lines in world space without a border.
+    pub fn thin_lines(&self, lines: &[[DVec3; 2]], color: Color32) {
+        for ends in lines {
+            if let Some(ends) = self.segment(*ends) {
+                self.painter.line_segment(ends, Stroke::new(1.0, color));
+            }
+        }
+    }
+
     /// Projects a line, clipped at the camera; `None` behind it or far outside.
     pub fn segment(&self, [a, b]: [DVec3; 2]) -> Option<[Pos2; 2]> {
         let (depth_a, depth_b) = (self.eye.depth(a), self.eye.depth(b));

@@ -3,7 +3,7 @@
 use crate::actions::commands;
 use crate::actions::cursor;
 use crate::actions::files::{cameras, pictures};
-use crate::actions::{settings, tools, update};
+use crate::actions::{settings, sight, tools, update};
 use crate::model::tool::Tool;
 use crate::state::answer::Answer;
 use crate::state::layout::Layout;
@@ -150,6 +150,7 @@ impl eframe::App for Viewer {
         cursor::update(&mut session, &progress);
         tools::aim(&mut session, &progress);
         cameras::picture(&mut session, &progress);
+        sight::update(&mut session, &progress);
         let paused = session.view.paused;
         session.time_left.update(&progress, paused);
         session.set_spent(match progress.is_coarse {

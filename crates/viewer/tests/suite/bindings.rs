@@ -201,13 +201,19 @@ fn what_the_issue_promises_is_on_the_keys_that_it_names() {
         blender.drag(PointerButton::Middle, Modifiers::SHIFT),
         Some(Action::Pan)
     );
-    assert_eq!(blender.drag(PointerButton::Primary, Mods::NONE), None);
+    assert_eq!(
+        blender.drag(PointerButton::Primary, Mods::NONE),
+        Some(Action::SelectBox)
+    );
     let maya = Bindings::new(Preset::Maya);
     assert_eq!(
         maya.drag(PointerButton::Primary, Modifiers::ALT),
         Some(Action::Orbit)
     );
-    assert_eq!(maya.drag(PointerButton::Primary, Mods::NONE), None);
+    assert_eq!(
+        maya.drag(PointerButton::Primary, Mods::NONE),
+        Some(Action::SelectBox)
+    );
     assert_eq!(
         maya.click(PointerButton::Primary, Mods::NONE),
         Some(Action::Select)

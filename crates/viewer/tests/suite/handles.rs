@@ -4,7 +4,7 @@ use crate::support::verdict::Verdict;
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, dvec2, dvec3};
 use glimray::scene::Camera;
 use glimray_viewer::model::handles::{
-    Eye, Grip, Handles, Part, angle_between, nearest_on_line, on_plane,
+    Eye, Grip, Handles, Part, Snap, angle_between, nearest_on_line, on_plane,
 };
 use glimray_viewer::model::objects::{Freedom, Scaling};
 use glimray_viewer::model::tool::Tool;
@@ -53,7 +53,7 @@ fn drag(
     camera: &Camera,
     from: DVec2,
     moved: DVec2,
-    snap: bool,
+    snap: Snap,
 ) -> DAffine3 {
     let mut grip = Grip::new(part, handles(tool, place, camera), place, from);
     grip.move_pointer(moved, false);
@@ -115,7 +115,7 @@ fn what_an_arrow_moves_stays_under_the_hand() {
                 &camera,
                 at(0.5),
                 moved,
-                false,
+                Snap::Off,
             );
             let expected = place.translation + way * 0.7;
             let off = now.translation.distance(expected);
@@ -141,7 +141,7 @@ fn what_a_plane_moves_stays_under_the_hand() {
         &camera,
         from,
         to - from,
-        false,
+        Snap::Off,
     );
     assert!(
         now.translation.distance(dvec3(0.7, -0.2, 0.25)) < 1e-9,
@@ -158,7 +158,7 @@ fn a_ring_that_faces_the_camera_turns_by_the_angle_in_the_picture() {
     let moved = dvec2(-LENGTH, -LENGTH);
     let start = DAffine3::from_scale(dvec3(1.0, 2.0, 3.0));
     for part in [Part::Ring(2), Part::All] {
-        let now = drag(Tool::Rotate, part, start, &camera, from, moved, false);
+        let now = drag(Tool::Rotate, part, start, &camera, from, moved, Snap::Off);
         let expected = DMat3::from_rotation_z(FRAC_PI_2) * start.matrix3;
         assert!(now.matrix3.abs_diff_eq(expected, 1e-9), "{part:?}: {now}");
     }
@@ -177,7 +177,7 @@ fn a_ring_seen_from_its_edge_is_rolled() {
         &camera,
         SIZE / 2.0,
         dvec2(LENGTH / 2.0, 0.0),
-        false,
+        Snap::Off,
     );
     let front = now.transform_vector3(DVec3::Z);
     assert!(
@@ -202,7 +202,7 @@ fn a_box_scales_along_the_own_axis_only() {
         &camera,
         from,
         moved,
-        false,
+        Snap::Off,
     );
     let expected = start.matrix3 * DMat3::from_diagonal(dvec3(1.5, 1.0, 1.0));
     assert!(now.matrix3.abs_diff_eq(expected, 1e-9), "{now}");
@@ -221,7 +221,7 @@ fn the_middle_scales_evenly_and_never_to_nothing() {
             &camera,
             SIZE / 2.0,
             moved,
-            false,
+            Snap::Off,
         );
         now.matrix3
     };
@@ -243,14 +243,17 @@ fn steps_are_whole_with_snapping_and_a_tenth_when_fine() {
         &camera,
         middle,
         dvec2(0.7 / pixel, 0.0),
-        true,
+        Snap::Whole,
     );
     // Handles are 80 pixels long, which is about 3 units: steps of 1.
     assert!((now.translation.x - 1.0).abs() < 1e-9, "{now}");
     let place = handles(Tool::Move, start, &camera);
     let mut grip = Grip::new(Part::Axis(0), place, start, middle);
     grip.move_pointer(dvec2(100.0, 0.0), true);
-    let fine = grip.dragged(eye(&camera), false).expect("a place").place;
+    let fine = grip
+        .dragged(eye(&camera), Snap::Off)
+        .expect("a place")
+        .place;
     assert!((fine.translation.x - 10.0 * pixel).abs() < 1e-9, "{fine}");
 }
 

@@ -1,6 +1,7 @@
 //! The window, driven through the names that screen readers read, drawn and rendered by lavapipe; and the models behind it.
 
 mod bindings;
+mod box_select;
 mod canvas;
 mod command_line;
 mod compare;
@@ -13,6 +14,7 @@ mod film;
 mod first_picture;
 mod fitting;
 mod focus;
+mod ground;
 mod handles;
 mod hands;
 mod harness;
@@ -47,6 +49,8 @@ mod replay;
 mod section;
 mod several_rows;
 mod sheets;
+mod silhouette;
+mod snapping;
 mod support;
 mod tasks;
 mod textures;

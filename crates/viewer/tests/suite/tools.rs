@@ -2,7 +2,7 @@
 
 use super::edit::{file, on_screen, open};
 use super::focus::click_at;
-use eframe::egui::{Key, Modifiers, PointerButton};
+use eframe::egui::{Event, Key, Modifiers, OutputCommand, PointerButton, vec2};
 use glam::{DVec3, dvec3};
 use glimray_viewer::model::tool::Tool;
 
@@ -74,4 +74,74 @@ fn a_click_on_the_background_measures_nothing() {
     let messages = window.session().messages.current();
     let text = messages.last().expect("a message").text.clone();
     assert_eq!(text, "Nothing is under the cursor");
+}
+
+#[test]
+fn ends_snap_to_vertices_and_measurements_are_kept_copied_and_removed() {
+    let (_folder, path) = file();
+    let text = std::fs::read_to_string(&path).expect("a scene");
+    let ball = "sphere = { center = [1, 0, 0], radius = 0.75 }";
+    let cube = "box = { min = [0.5, -0.5, -0.5], max = [1.5, 0.5, 0.5] }";
+    std::fs::write(&path, text.replace(ball, cube)).expect("a file");
+    let mut window = open(&path, "400x300");
+    (window.harness).key_press_modifiers(Modifiers::ALT, Key::M);
+    window.settle();
+    // The upper corners of the front face, each five points beside the click; one is beyond the cube.
+    let corners = [dvec3(0.5, 0.5, 0.5), dvec3(1.5, 0.5, 0.5)];
+    for (corner, off) in corners.into_iter().zip([vec2(4.0, 3.0), vec2(3.0, -4.0)]) {
+        let at = on_screen(&window, corner) + off;
+        click_at(&mut window, at, PointerButton::Primary);
+        window.settle();
+    }
+    let first = window.session().tool_state.measured.clone();
+    assert_eq!(first.len(), 2, "{first:?}");
+    for (point, corner) in first.iter().zip(corners) {
+        assert!(point.distance(corner) < 1e-6, "{point} is not {corner}");
+    }
+    // Farther than eight points from a corner, and before one that is hidden: the surface.
+    let middle = on_screen(&window, dvec3(1.0, 0.0, 0.5));
+    let hidden = on_screen(&window, dvec3(1.5, -0.5, -0.5));
+    for at in [middle, hidden] {
+        click_at(&mut window, at, PointerButton::Primary);
+        window.settle();
+    }
+    let second = window.session().tool_state.measured.clone();
+    assert!((second[0].z - 0.5).abs() < 1e-4, "{second:?}");
+    assert!(second[1].z > 0.4, "{second:?}");
+    assert_eq!(window.session().tool_state.measurements().len(), 2);
+
+    window.harness.event(Event::Key {
+        key: Key::M,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::SHIFT | Modifiers::ALT,
+    });
+    window.harness.step();
+    let commands = window.harness.output().platform_output.commands.clone();
+    let text = commands.into_iter().find_map(|command| match command {
+        OutputCommand::CopyText(text) => Some(text),
+        _ => None,
+    });
+    let text = text.expect("a text");
+    let numbers: Vec<f64> = (text.lines().nth(1).expect("a line").split('\t'))
+        .map(|number| number.parse().expect("a number"))
+        .collect();
+    let expected = [0.5, 0.5, 0.5, 1.5, 0.5, 0.5, 1.0, 1.0, 0.0, 0.0];
+    assert_eq!(numbers.len(), expected.len(), "{text}");
+    for (number, expected) in numbers.iter().zip(expected) {
+        assert!((number - expected).abs() < 1e-5, "{text}");
+    }
+    assert_eq!(text.lines().count(), 3, "{text}");
+
+    let objects = window.session().scene().expect("a scene").shapes.len();
+    for left in [1, 0] {
+        window.harness.key_press(Key::Delete);
+        window.settle();
+        assert_eq!(window.session().tool_state.measurements().len(), left);
+    }
+    assert_eq!(
+        window.session().scene().expect("a scene").shapes.len(),
+        objects
+    );
 }

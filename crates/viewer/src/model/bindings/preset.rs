@@ -156,8 +156,10 @@ pub(super) const GLIMRAY: &str = "
     toggle-motion-blur: U
     turn-light: Shift+Drag right
     select: Click left
+    select-box: Alt+Drag left, Shift+Alt+Drag left, Ctrl+Alt+Drag left
     picture-menu: Click right
     snap-handles: Hold Ctrl
+    toggle-snapping: Alt+S
     fine-handles: Hold Shift
     add: Shift+A
     select-all: Ctrl+A
@@ -166,6 +168,7 @@ pub(super) const GLIMRAY: &str = "
     rename: F2
     duplicate: Ctrl+D
     delete: Delete, Backspace
+    copy-measurements: Shift+Alt+M
     undo: Ctrl+Z
     redo: Ctrl+Shift+Z, Ctrl+Y
     new: Ctrl+N
@@ -184,6 +187,11 @@ pub(super) const GLIMRAY: &str = "
     toggle-panels: N
     toggle-outline: O
     toggle-overlays: Shift+O
+    toggle-selection-outline: Alt+O
+    toggle-grid: Alt+G
+    toggle-wireframe: Alt+E
+    toggle-feature-edges: Shift+Alt+E
+    toggle-section-handle: Shift+Alt+S
     toggle-statistics: Shift+I
     toggle-theme: F9
     larger-text: Ctrl+Equals, Ctrl+Plus, Ctrl+Shift+Plus
@@ -240,6 +248,8 @@ pub(super) const BLENDER: &str = "
     step-back: Left
     first-frame: Shift+Left
     last-frame: Shift+Right
+    select-box: Drag left, Shift+Drag left
+    toggle-wireframe: Shift+Z
     toggle-visible: H
     select-all: A, Ctrl+A
     duplicate: Shift+D
@@ -266,6 +276,7 @@ pub(super) const MAYA: &str = "
     step-back: Alt+Comma
     first-frame: Shift+Alt+Comma
     last-frame: Shift+Alt+Period
+    select-box: Drag left, Shift+Drag left
     toggle-visible: Ctrl+H
     undo: Ctrl+Z, Z
     redo: Ctrl+Shift+Z, Ctrl+Y, Shift+Z

@@ -46,6 +46,23 @@ pub fn project_line(
     clip(a, b, DVec2::splat(-margin), size + margin)
 }
 
+/// How far along its ray the position `at` of a picture of `size` shows a line in the world, in scene units; `None` if the ray
+/// runs along the line.
+pub fn distance_along(
+    camera: &Camera,
+    (from, to): (DVec3, DVec3),
+    at: DVec2,
+    size: DVec2,
+) -> Option<f64> {
+    let (origin, direction) = ray_through(camera, at, size);
+    let (off, way) = (from - origin, to - from);
+    // The point of the ray that is nearest to the line.
+    let (slope, square) = (direction.dot(way), way.length_squared());
+    let share = square - slope * slope;
+    let along = (off.dot(direction) * slope - off.dot(way)) / share;
+    (share > 1e-9 * square).then(|| off.dot(direction) + slope * along)
+}
+
 /// Clips the line from `a` to `b` to a rectangle (Liang and Barsky).
 fn clip(a: DVec2, b: DVec2, min: DVec2, max: DVec2) -> Option<(DVec2, DVec2)> {
     let way = b - a;

@@ -1,12 +1,13 @@
 //! Handles of the selected lamp in the picture: its aim and its size.
 
 use crate::actions::lighting;
-use crate::model::bindings::Action;
+use crate::model::handles::Snap;
 use crate::model::handles::lamp::{Lamp, LampGrip, LampPart, change_lamp};
 use crate::model::objects::{self, Id};
 use crate::model::tool::Tool;
 use crate::state::session::Session;
-use crate::ui::overlay::{ALL, HOT, SELECTED, SLACK};
+use crate::ui::overlay::{ALL, HOT, SLACK, held};
+use crate::ui::silhouette::LEAD;
 use crate::ui::world_painter::{SHADE, WorldPainter};
 use eframe::egui::{self, Pos2, Stroke, vec2};
 use glam::DVec3;
@@ -49,16 +50,10 @@ pub fn handles(
     let slack = view.viewport.length(vec2(SLACK, 0.0)).x;
     let part_at = |at: Pos2| lamp.part_at(view.eye, free, view.viewport.position(at), slack);
     let ctx = &response.ctx;
-    let bindings = &session.preferences.bindings;
-    let (pointer, pressed, is_fine, snaps) = ctx.input(|input| {
-        let pointer = &input.pointer;
-        (
-            pointer.latest_pos(),
-            pointer.press_origin(),
-            bindings.is_held(Action::FineHandles, input),
-            bindings.is_held(Action::SnapHandles, input),
-        )
-    });
+    let (pointer, pressed) =
+        ctx.input(|input| (input.pointer.latest_pos(), input.pointer.press_origin()));
+    let (is_fine, snap) = held(session, ctx);
+    let snaps = snap != Snap::Off;
     if response.drag_started_by(egui::PointerButton::Primary)
         && let Some(pressed) = pressed
         && let Some(part) = part_at(pressed)
@@ -120,7 +115,7 @@ fn dots(view: &WorldPainter, handles: &[(LampPart, DVec3)], hot: Option<LampPart
         let color = match part {
             _ if hot == Some(*part) => HOT,
             LampPart::Aim => ALL,
-            _ => SELECTED,
+            _ => LEAD,
         };
         let at = view.viewport.point(at);
         view.painter.circle(at, DOT, color, Stroke::new(1.5, SHADE));

@@ -7,6 +7,7 @@ use crate::actions::files::cameras;
 use crate::actions::tools;
 use crate::model::bindings::Action as A;
 use crate::model::document::Document;
+use crate::model::overlays::Overlays;
 use crate::model::tool::{Tool, ToolMenu};
 use crate::model::view_settings::{ErrorMap, Measure, Sharing};
 use crate::state::dialogs::Dialog;
@@ -200,6 +201,10 @@ fn edit(menu: &mut Menu) {
     menu.entry_if(has_selection, "Deselect", A::SelectNothing);
     menu.line();
     menu.tools(ToolMenu::Edit);
+    let snaps = menu.context.session.snaps;
+    menu.tick(snaps, "Snapping", A::ToggleSnapping);
+    let is_measured = !menu.context.session.tool_state.measurements().is_empty();
+    menu.entry_if(is_measured, "Copy measurements", A::CopyMeasurements);
     menu.line();
     menu.entry("Copy as command line", A::CopyCamera);
     menu.entry("Paste camera", A::PasteCamera);
@@ -227,6 +232,13 @@ fn view(menu: &mut Menu) {
     menu.entry("Reset pixel zoom", A::PixelZoomReset);
     menu.entry("Level horizon", A::Level);
     menu.entry("Walk", A::Walk);
+    menu.line();
+    let mut overlays = menu.context.session.overlays;
+    for entry in Overlays::ALL {
+        let is_shown = overlays.of(entry.action).is_some_and(|it| *it);
+        menu.tick(is_shown, entry.title, entry.action);
+    }
+    menu.line();
     menu.entry("Undo camera movement", A::UndoView);
     menu.entry("Redo camera movement", A::RedoView);
     menu.line();

@@ -12,6 +12,7 @@ mod start;
 mod toolbar;
 mod values;
 
+use crate::actions::box_select;
 use crate::actions::region;
 use crate::actions::tools;
 use crate::model::camera::CameraController;
@@ -80,8 +81,11 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     let viewport = viewports[usize::from(is_right)];
     context.session.viewport = Some(viewport);
     hover(context, &response, viewport, space);
+    ui::ground::draw(context.session, &painter, viewport);
     let is_taken = region::drag(context.session, &response, viewport)
-        || overlay::overlay(context.session, &response, &painter, viewport);
+        || overlay::overlay(context.session, &response, &painter, viewport)
+        || ui::section_handle::handle(context.session, &response, &painter, viewport)
+        || box_select::drag(context.session, &response, viewport);
     if !is_taken {
         tools::navigate(context.session, &response, viewport);
     }

@@ -16,6 +16,8 @@ pub enum Sign {
     Undo,
     /// Repeats the edit that was undone.
     Redo,
+    /// Rounds moves, rotations and scales.
+    Snapping,
     /// Hides what lies over the picture.
     Overlays,
     /// Compares two pictures.
@@ -39,6 +41,22 @@ const SELECT: Lines = &[&[
     (0.65, 0.15),
     (-0.5, -0.9),
 ]];
+const BOX: Lines = &[
+    &[(-0.9, -0.4), (-0.9, -0.8), (-0.5, -0.8)],
+    &[(-0.1, -0.8), (0.4, -0.8)],
+    &[(0.9, -0.8), (0.9, -0.3)],
+    &[(-0.9, 0.0), (-0.9, 0.6), (-0.4, 0.6)],
+    &[
+        (0.1, -0.2),
+        (0.1, 0.75),
+        (0.35, 0.55),
+        (0.55, 0.95),
+        (0.72, 0.85),
+        (0.55, 0.45),
+        (0.9, 0.4),
+        (0.1, -0.2),
+    ],
+];
 const MOVE: Lines = &[
     &[(-0.95, 0.0), (0.95, 0.0)],
     &[(0.0, -0.95), (0.0, 0.95)],
@@ -92,6 +110,27 @@ const REGION: Lines = &[
     &[(0.4, -0.8), (0.9, -0.8), (0.9, -0.3)],
     &[(0.9, 0.3), (0.9, 0.8), (0.4, 0.8)],
     &[(-0.4, 0.8), (-0.9, 0.8), (-0.9, 0.3)],
+];
+const SNAPPING: Lines = &[
+    &[
+        (-0.8, -0.8),
+        (-0.8, 0.1),
+        (-0.55, 0.6),
+        (0.0, 0.85),
+        (0.55, 0.6),
+        (0.8, 0.1),
+        (0.8, -0.8),
+        (0.35, -0.8),
+        (0.35, 0.05),
+        (0.2, 0.3),
+        (0.0, 0.4),
+        (-0.2, 0.3),
+        (-0.35, 0.05),
+        (-0.35, -0.8),
+        (-0.8, -0.8),
+    ],
+    &[(-0.8, -0.4), (-0.35, -0.4)],
+    &[(0.35, -0.4), (0.8, -0.4)],
 ];
 const UNDO: Lines = &[
     &[
@@ -165,6 +204,7 @@ fn lines(sign: Sign) -> Lines {
     match sign {
         Sign::Tool(tool) => match tool {
             Tool::Select => SELECT,
+            Tool::Box => BOX,
             Tool::Move => MOVE,
             Tool::Rotate => ROTATE,
             Tool::Scale => SCALE,
@@ -174,6 +214,7 @@ fn lines(sign: Sign) -> Lines {
         },
         Sign::Undo => UNDO,
         Sign::Redo => REDO,
+        Sign::Snapping => SNAPPING,
         Sign::Overlays => OVERLAYS,
         Sign::Compare => COMPARE,
         Sign::Camera => CAMERA,

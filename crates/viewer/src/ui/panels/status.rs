@@ -3,6 +3,7 @@
 use crate::model::tool::Tool;
 use crate::state::cursor::Surface;
 use crate::ui::context::PanelContext;
+use crate::ui::ground;
 use crate::ui::panels::jobs;
 use crate::ui::panels::picture::loading;
 use crate::ui::panels::render::seconds;
@@ -38,6 +39,7 @@ pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
             ui.label(format!("{samples} of {} samples", progress.target))
                 .on_hover_text("Samples per pixel so far, and the target");
             tool(ui, context);
+            drawn(ui, context);
             cursor(ui, context);
             if !context.session.shows_statistics {
                 return;
@@ -78,6 +80,26 @@ fn tool(ui: &mut egui::Ui, context: &PanelContext) {
         ui.separator();
         ui.label(tool.entry().title)
             .on_hover_text(tool.entry().description);
+    }
+}
+
+/// The size of the grid, and whether some edges are left out.
+fn drawn(ui: &mut egui::Ui, context: &PanelContext) {
+    let session = &*context.session;
+    let (overlays, is_shown) = (session.overlays, session.shows_overlays);
+    if let Some(viewport) = session.viewport.filter(|_| overlays.grid && is_shown)
+        && let Some(step) = ground::spacing(session, viewport)
+    {
+        ui.separator();
+        ui.label(format!("grid {}", number(step as f32)))
+            .on_hover_text("The distance of the lines of the grid, in scene units");
+    }
+    let seen = session.sight.latest.as_ref();
+    if overlays.has_edges() && is_shown && seen.is_some_and(|seen| seen.edges.is_cut) {
+        ui.separator();
+        ui.label("not all edges").on_hover_text(
+            "There are more edges than the window draws. Hide objects or move closer to see the others",
+        );
     }
 }
 

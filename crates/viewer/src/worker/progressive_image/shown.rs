@@ -107,6 +107,9 @@ impl ProgressiveImage {
 
     /// The samples so far as linear values: radiance without exposure and tone curve, or else what is displayed, decoded. `raw`
     /// leaves the denoising out. `None` before there are any.
+    ///
+    /// # Errors
+    /// The device failed.
     pub fn linear(&mut self, raw: bool) -> Result<Option<Image>, RenderError> {
         let (Some(renderer), Some(request)) = (&mut self.renderer, &self.request) else {
             return Ok(None);

@@ -3,6 +3,7 @@
 
 use crate::model::bindings::Action;
 use crate::model::document::Document;
+use crate::model::overlays::Overlays;
 use crate::model::tool::{Tool, ToolMenu};
 use crate::model::view_settings::Sharing;
 use crate::state::session::Session;
@@ -14,6 +15,8 @@ use eframe::egui::{self, Frame, Margin, Popup, Rect, Sense, Ui, UiBuilder, Vec2,
 const BAR: f32 = 40.0;
 /// Smallest picture that has bars, in points.
 const LEAST: Vec2 = vec2(270.0, 300.0);
+/// Smallest picture whose bars have all buttons, in points.
+const ROOMY: Vec2 = vec2(350.0, 340.0);
 /// Distance from the edges of the picture, in points.
 const MARGIN: f32 = 6.0;
 
@@ -40,12 +43,20 @@ pub fn toolbar(ui: &mut Ui, session: &mut Session, space: Rect) {
     }
     let corner = space.min + Vec2::splat(MARGIN);
     let upper = Rect::from_min_max(corner, pos2(space.max.x - MARGIN, corner.y));
-    bar(ui, upper, |ui| ui.horizontal(|ui| view(ui, session)).inner);
+    let is_wide = space.width() >= ROOMY.x;
+    bar(ui, upper, |ui| {
+        ui.horizontal(|ui| view(ui, session, is_wide)).inner
+    });
     let left = Rect::from_min_max(
         corner + vec2(0.0, BAR),
         pos2(corner.x + BAR, space.max.y - MARGIN),
     );
-    bar(ui, left, |ui| tools(ui, session));
+    bar(ui, left, |ui| {
+        tools(ui, session);
+        if space.height() >= ROOMY.y {
+            history(ui, session);
+        }
+    });
 }
 
 /// A bar over the picture, which takes the clicks between its buttons.
@@ -89,6 +100,10 @@ fn tools(ui: &mut Ui, session: &mut Session) {
             }
         }
     }
+}
+
+/// Undo and redo.
+fn history(ui: &mut Ui, session: &mut Session) {
     ui.add_space(4.0);
     let document = session.document.as_ref();
     let undo = document.and_then(Document::undo_name).map(str::to_owned);
@@ -110,7 +125,8 @@ fn tools(ui: &mut Ui, session: &mut Session) {
     }
 }
 
-fn view(ui: &mut Ui, session: &mut Session) {
+/// The buttons of the upper bar; the less important ones only where it `is_wide`.
+fn view(ui: &mut Ui, session: &mut Session, is_wide: bool) {
     // As high as the other buttons.
     ui.spacing_mut().interact_size.y = SIDE;
     let mut shown = view_mode::shown(&session.view);
@@ -138,6 +154,9 @@ fn view(ui: &mut Ui, session: &mut Session) {
             .messages
             .notify(format!("Overlays are hidden. {how}"));
     }
+    if is_wide {
+        overlays(ui, session);
+    }
     compare(ui, session);
     let region = Action::Tool(Tool::Region);
     let is_active = session.tool == Tool::Region || session.view.region.is_some();
@@ -151,7 +170,41 @@ fn view(ui: &mut Ui, session: &mut Session) {
     if response.on_hover_text(tip(session, region)).clicked() {
         session.clicked.push(region);
     }
+    if is_wide {
+        snapping(ui, session);
+    }
     camera(ui, session);
+}
+
+fn snapping(ui: &mut Ui, session: &mut Session) {
+    let response = button(ui, Sign::Snapping, "Snapping", session.snaps, true);
+    let text = tip(session, Action::ToggleSnapping);
+    let told = format!("{text}\nSteps of the grid, 15° and 0.1; Shift makes them finer.");
+    if response.on_hover_text(told).clicked() {
+        session.clicked.push(Action::ToggleSnapping);
+    }
+}
+
+/// The menu of what is drawn over the picture.
+fn overlays(ui: &mut Ui, session: &mut Session) {
+    let response = ui.add(egui::Button::new("⏷").min_size(vec2(14.0, SIDE)));
+    let name = "Choose overlays";
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+    let response = response.on_hover_text("Choose what is drawn over the picture");
+    let mut chosen = None;
+    let stays = egui::PopupCloseBehavior::CloseOnClickOutside;
+    Popup::menu(&response).close_behavior(stays).show(|ui| {
+        for entry in Overlays::ALL {
+            let is_shown = session.overlays.of(entry.action).is_some_and(|it| *it);
+            let key = session.preferences.bindings.label(entry.action);
+            let entry_button = egui::Button::selectable(is_shown, entry.title).shortcut_text(key);
+            let response = ui.add(entry_button).accessible_name(entry.title);
+            if response.on_hover_text(entry.action.description()).clicked() {
+                chosen = Some(entry.action);
+            }
+        }
+    });
+    session.clicked.extend(chosen);
 }
 
 fn compare(ui: &mut Ui, session: &mut Session) {

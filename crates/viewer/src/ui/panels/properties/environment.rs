@@ -7,7 +7,7 @@ use crate::ui::panels::properties::fields::{Fields, Limits};
 use crate::ui::panels::properties::section;
 use crate::ui::panels::row::row;
 use crate::ui::sun_dial::SunDial;
-use eframe::egui::{self, Sense, WidgetInfo, vec2};
+use eframe::egui::{self, Sense, Ui, WidgetInfo, vec2};
 use glam::Vec3;
 use glimray_scene::{Background, BuiltIn, Origin, Scene, Shadows};
 
@@ -149,7 +149,7 @@ fn sun_dial(fields: &mut Fields, session: &Session) {
     let forward = session
         .camera()
         .map(|camera| camera.look_at - camera.look_from);
-    let moved = row(fields.ui, ("Sun", &tip), |ui, _| {
+    let map = |ui: &mut Ui| {
         let size = vec2(2.0 * DIAL, 2.0 * DIAL + 4.0);
         // The mouse only: the numbers are for keys.
         let (rect, response) = ui.allocate_exact_size(size, Sense::CLICK | Sense::DRAG);
@@ -163,8 +163,9 @@ fn sun_dial(fields: &mut Fields, session: &Session) {
         let moved = response.dragged() || response.clicked();
         response.on_hover_text(&tip);
         at.filter(|_| moved).map(|at| dial.sun_deg(at))
-    });
-    if let Some(sun) = moved {
+    };
+    let moved = fields.draw(|ui, _| row(ui, ("Sun", &tip), |ui, _| map(ui)));
+    if let Some(sun) = moved.flatten() {
         fields.change("sun", move |scene| {
             light.with_sun(sun).apply(scene);
             Ok(())

@@ -1,0 +1,183 @@
+//! The handle of the section plane in the picture: an arrow moves the plane, two rings tilt it.
+
+use crate::model::handles::{Eye, Grip, Handles, LENGTH, Part};
+use crate::model::tool::Tool;
+use crate::model::viewport::Viewport;
+use crate::state::session::Session;
+use crate::ui::overlay::{SLACK, draw_handles, held};
+use crate::ui::world_painter::WorldPainter;
+use eframe::egui::{self, Color32, Painter, PointerButton, vec2};
+use glam::{DAffine3, DMat3, DVec3};
+use glimray_app::legend::number;
+use glimray_scene::Section;
+
+/// The colour of the handle and of the plane.
+const COLOR: Color32 = Color32::from_rgb(64, 200, 220);
+/// The radius of the rings, as a share of the arrow's length.
+const RINGS: f64 = 0.7;
+
+/// The parts of the handle.
+struct Gizmo {
+    arrow: Handles,
+    rings: Handles,
+    /// From the plane's own axes, of which the third is its normal, to the world.
+    place: DAffine3,
+}
+
+impl Gizmo {
+    /// The handle of a plane at the point of it that is nearest to `middle`.
+    fn new(section: Section, middle: DVec3, reach: f64) -> Self {
+        let Section { normal, offset } = section;
+        let origin = middle + normal * (offset - normal.dot(middle));
+        let (u, v) = normal.any_orthonormal_pair();
+        let handles = |tool, parts, reach| Handles {
+            tool,
+            origin,
+            axes: [u, v, normal],
+            reach,
+            parts,
+        };
+        Self {
+            arrow: handles(Tool::Move, vec![Part::Axis(2)], reach),
+            rings: handles(
+                Tool::Rotate,
+                vec![Part::Ring(0), Part::Ring(1)],
+                RINGS * reach,
+            ),
+            place: DAffine3::from_mat3_translation(DMat3::from_cols(u, v, normal), origin),
+        }
+    }
+
+    /// The handles of one part.
+    fn of(&self, part: Part) -> &Handles {
+        match part {
+            Part::Axis(_) => &self.arrow,
+            _ => &self.rings,
+        }
+    }
+
+    fn draw(&self, view: &WorldPainter, half: f64, hot: Option<Part>) {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            .map(|(x, y)| self.place.transform_point3(DVec3::new(x, y, 0.0) * half));
+        let next = corners.iter().cycle().skip(1);
+        let edges: Vec<_> = corners.iter().zip(next).map(|(a, b)| [*a, *b]).collect();
+        let share = if hot.is_some() { 0.9 } else { 0.45 };
+        view.thin_lines(&edges, COLOR.gamma_multiply(share));
+        draw_handles(view, &self.rings, hot, Some(COLOR));
+        draw_handles(view, &self.arrow, hot, Some(COLOR));
+    }
+}
+
+/// Draws the handle and drags it. Returns whether the mouse is consumed.
+pub fn handle(
+    session: &mut Session,
+    response: &egui::Response,
+    painter: &Painter,
+    viewport: Viewport,
+) -> bool {
+    let is_shown = session.shows_overlays
+        && session.overlays.section
+        && session.editing.modal.is_none()
+        && session.editing.grip.is_none();
+    let (scene, camera) = (session.scene().cloned(), session.camera());
+    let (Some(scene), Some(camera), true) = (scene, camera, is_shown) else {
+        session.editing.section = None;
+        return false;
+    };
+    let Some((section, bounds)) = scene.section.zip(session.editing.subject_of(&scene)) else {
+        session.editing.section = None;
+        return false;
+    };
+    let eye = Eye {
+        camera: &camera,
+        size: viewport.extent(),
+    };
+    let view = WorldPainter {
+        painter,
+        viewport,
+        eye,
+    };
+    let middle = bounds.0.midpoint(bounds.1);
+    let half = 0.5 * bounds.0.distance(bounds.1);
+    let pixels = |points: f32| viewport.length(vec2(points, 0.0)).x;
+    let origin = middle + section.normal * (section.offset - section.normal.dot(middle));
+    if eye.project(origin).is_none() {
+        session.editing.section = None;
+        return false;
+    }
+    let gizmo = Gizmo::new(section, middle, eye.pixel_at(origin) * pixels(LENGTH));
+    let ctx = &response.ctx;
+    let (pointer, pressed) =
+        ctx.input(|input| (input.pointer.latest_pos(), input.pointer.press_origin()));
+    let part_at = |at: egui::Pos2| {
+        let at = viewport.position(at);
+        let slack = pixels(SLACK);
+        let arrow = gizmo.arrow.part_at(eye, at, slack);
+        arrow.or_else(|| gizmo.rings.part_at(eye, at, slack))
+    };
+    if response.drag_started_by(PointerButton::Primary)
+        && let Some(pressed) = pressed
+        && let Some(part) = part_at(pressed)
+    {
+        let handles = gizmo.of(part).clone();
+        let grip = Grip::new(part, handles, gizmo.place, viewport.position(pressed));
+        session.editing.section = Some((grip, pressed));
+    }
+    let Some((mut grip, last)) = session.editing.section.take() else {
+        let hovered = pointer.filter(|_| response.hovered()).and_then(part_at);
+        gizmo.draw(&view, half, hovered);
+        if hovered.is_some() {
+            ctx.set_cursor_icon(egui::CursorIcon::Grab);
+        }
+        return false;
+    };
+    let (is_fine, snap) = held(session, ctx);
+    let now = pointer.unwrap_or(last);
+    grip.move_pointer(viewport.length(now - last), is_fine);
+    let mut shown = gizmo;
+    if let Some(dragged) = grip.dragged(eye, snap) {
+        let (to, name, label) = moved(&grip, dragged.place, &dragged.label, section);
+        if to != section && now != last {
+            session.drag_change(name, |scene| {
+                scene.section = Some(to);
+                Ok(())
+            });
+        }
+        shown = Gizmo::new(to, dragged.place.translation, shown.arrow.reach);
+        view.text(now + vec2(18.0, -18.0), &label);
+    }
+    ctx.set_cursor_icon(egui::CursorIcon::Grabbing);
+    shown.draw(&view, half, Some(grip.part));
+    if response.dragged_by(PointerButton::Primary) {
+        session.moved();
+        session.editing.section = Some((grip, now));
+    } else if let Some(document) = &mut session.document {
+        document.release();
+    }
+    true
+}
+
+/// The plane after a drag, the name of the edit, and what is shown beside the pointer.
+fn moved(
+    grip: &Grip,
+    place: DAffine3,
+    label: &str,
+    before: Section,
+) -> (Section, &'static str, String) {
+    match grip.part {
+        Part::Axis(_) => {
+            let offset = before.normal.dot(place.translation);
+            let to = Section { offset, ..before };
+            let label = format!("offset {}   {label}", number(offset as f32));
+            (to, "move section plane", label)
+        }
+        _ => {
+            let normal = place.matrix3.z_axis.normalize_or(before.normal);
+            let to = Section {
+                normal,
+                offset: normal.dot(place.translation),
+            };
+            (to, "tilt section plane", label.to_owned())
+        }
+    }
+}
