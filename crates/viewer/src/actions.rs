@@ -13,6 +13,7 @@ pub mod histogram;
 pub mod inspector;
 mod keyboard;
 pub mod lighting;
+pub mod materials;
 pub mod measuring;
 pub mod modal;
 pub mod output_defaults;

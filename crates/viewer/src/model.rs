@@ -1,6 +1,7 @@
 //! The window's model: documents, cameras, shortcuts, preferences. Nothing here draws.
 
 pub mod adding;
+pub mod ball;
 pub mod bindings;
 pub mod camera;
 pub mod command_line;

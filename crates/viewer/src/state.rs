@@ -5,6 +5,7 @@ pub mod asked;
 pub mod comparing;
 pub mod cursor;
 pub mod dialogs;
+pub mod dropping;
 pub mod editing;
 pub mod files;
 pub mod film;

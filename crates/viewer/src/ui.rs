@@ -2,6 +2,7 @@
 
 pub(crate) mod context;
 pub(crate) mod dialogs;
+pub(crate) mod dragged;
 pub(crate) mod focus_ring;
 pub(crate) mod ground;
 pub(crate) mod overlay;

@@ -5,14 +5,13 @@ use crate::actions::files::{NO_DIALOG, short};
 use crate::actions::modal;
 use crate::model::adding::{self, Addition, Spot};
 use crate::model::file_dialog::{self, Reply, Request};
-use crate::model::material_presets::MaterialPreset;
-use crate::model::objects::{self, Id, unused_name};
+use crate::model::objects::{Id, unused_name};
 use crate::state::session::Session;
 use eframe::egui::{self, Popup};
 use glam::DVec3;
 use glimray_app::advice;
 use glimray_io::import::{self, Options, Staging};
-use glimray_scene::{ObjectRef, Scene};
+use glimray_scene::Scene;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{TryRecvError, channel};
 
@@ -52,36 +51,6 @@ pub fn place(session: &mut Session, what: Addition) -> Option<Id> {
     session.select(vec![id]);
     session.messages.notify(format!("Added {name}"));
     Some(id)
-}
-
-/// Adds a material in one step. The selected objects get it; without any, the material is selected.
-pub fn add_material(session: &mut Session, preset: MaterialPreset) {
-    let Some(scene) = session.scene() else {
-        return;
-    };
-    let name = unused_name(scene, preset.title());
-    let takers: Vec<ObjectRef> = (session.selected().into_iter())
-        .filter_map(|id| match id {
-            Id::Object(object) if !matches!(object, ObjectRef::Light(_)) => Some(object),
-            _ => None,
-        })
-        .collect();
-    let added = session.change(&format!("add {name}"), |scene| {
-        let index = preset.add_to(scene);
-        (takers.iter()).try_for_each(|object| objects::assign(scene, *object, index))?;
-        Ok(index)
-    });
-    let Some(index) = added else {
-        return;
-    };
-    session.messages.notify(match takers.as_slice() {
-        [] => format!("Added {name}"),
-        [one] => format!("Added {name} to {}", session.label(Id::Object(*one))),
-        several => format!("Added {name} to {} items", several.len()),
-    });
-    if takers.is_empty() {
-        session.select(vec![Id::Material(index)]);
-    }
 }
 
 fn spot(session: &Session) -> Option<Spot> {

@@ -2,7 +2,7 @@
 
 use crate::actions::editing::camera_in_world;
 use crate::actions::surface::surface_at;
-use crate::actions::{inspector, lighting, measuring, modal};
+use crate::actions::{inspector, lighting, materials, measuring, modal};
 use crate::model::bindings::{Action, Drag};
 use crate::model::camera::CameraController;
 use crate::model::objects::Id;
@@ -264,8 +264,14 @@ pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Optio
                 menu.point = hit.map(|(point, _)| point);
             }
         }
+        (Purpose::Hover, hit) => materials::hovered(session, hit.and_then(|(_, object)| object)),
+        (Purpose::Assign(material), Some((_, Some(object)))) => {
+            materials::assign(session, material, object);
+        }
         (Purpose::Measure(pixel), hit) => measuring::picked(session, pixel, hit),
-        (_, None) => session.messages.notify("Nothing is under the cursor"),
+        (_, None) | (Purpose::Assign(_), _) => {
+            session.messages.notify("Nothing is under the cursor")
+        }
     }
 }
 

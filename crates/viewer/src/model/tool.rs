@@ -226,4 +226,8 @@ pub enum Purpose {
     Measure([u32; 2]),
     /// Tell what the menu is about.
     Menu,
+    /// Tell what a material is dragged over.
+    Hover,
+    /// Give it the material with this index.
+    Assign(usize),
 }

@@ -6,6 +6,7 @@ use crate::model::handles::lamp::LampGrip;
 use crate::model::listing::Listing;
 use crate::model::modal::Modal;
 use crate::model::objects::{self, Id};
+use crate::state::dropping::Dropping;
 use eframe::egui::{self, Pos2};
 use glam::DVec3;
 use glimray_render::Integrator;
@@ -40,6 +41,8 @@ pub struct Editing {
     pub scrolled_to: Option<Id>,
     /// The visible range of the outline, in points from its start.
     pub visible_range: egui::Rangef,
+    /// A material that is dragged.
+    pub dropping: Option<Dropping>,
     /// The dialog that asks where to save the scene.
     pub(crate) saving: Option<Saving>,
     /// The file saved from this window, which may be replaced without asking.
@@ -78,6 +81,7 @@ impl Default for Editing {
             list_focus: None,
             scrolled_to: None,
             visible_range: egui::Rangef::EVERYTHING,
+            dropping: None,
             saving: None,
             written: None,
             known: None,

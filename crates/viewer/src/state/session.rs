@@ -1,5 +1,6 @@
 //! The session: all state that outlives a lost device.
 
+mod ball;
 pub mod opening;
 mod requests;
 mod room;
@@ -35,6 +36,7 @@ use crate::state::walk::Walk;
 use crate::worker::progressive_image::FrameRenderer;
 use crate::worker::render_thread::Question;
 use crate::worker::request::PreparedScene;
+use ball::Ball;
 use glam::DVec3;
 use glimray_app::clock::Clock;
 use glimray_app::error::AppError;
@@ -147,6 +149,7 @@ pub struct Session {
     pub(crate) owes_aim: bool,
     /// Number of restarts of the picture.
     pub(crate) restarts: u32,
+    ball: Ball,
     room: Room,
     fitted: Option<Fitted>,
     /// Time of the last motion, and the current time of egui.
@@ -218,6 +221,7 @@ impl Session {
             left: None,
             owes_aim: false,
             restarts: 0,
+            ball: Ball::default(),
             room: Room::default(),
             fitted: None,
             last_motion: f64::NEG_INFINITY,

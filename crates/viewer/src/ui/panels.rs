@@ -2,7 +2,7 @@
 
 pub(super) mod add;
 mod broken;
-mod icon;
+pub(super) mod icon;
 pub(super) mod jobs;
 mod menu;
 pub(super) mod messages;

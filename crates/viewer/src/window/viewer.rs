@@ -11,7 +11,7 @@ use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::dialogs;
 use crate::ui::textures::Textures;
-use crate::ui::{focus_ring, panels, shield, tabs, theme};
+use crate::ui::{dragged, focus_ring, panels, shield, tabs, theme};
 use crate::window::fonts::{self, Fallbacks};
 use crate::window::presses::Presses;
 use crate::worker::progressive_image::PictureSlot;
@@ -191,6 +191,7 @@ impl eframe::App for Viewer {
         panels::menu(ui, &mut context, &mut self.layout);
         panels::status(ui, &mut context);
         tabs::show(ui, &mut self.layout, &mut context);
+        dragged::show(ui.ctx(), context.session);
         shield::show(ui.ctx(), context.session);
         dialogs::show(ui, &mut context, &mut self.layout);
         panels::messages(ui, &mut context, &self.layout);
@@ -219,13 +220,14 @@ impl Pictures {
     fn submit(&mut self, render: &RenderThread<Answer>, session: &Session) -> bool {
         let requests = session.requests();
         let is_same = requests.is_same(&self.requests);
-        if is_same && requests.shares_prepared(&self.requests) {
+        let has_ball = requests.ball == self.requests.ball;
+        if is_same && has_ball && requests.shares_prepared(&self.requests) {
             return false;
         }
         render.submit(requests.clone());
         self.requests = requests;
         if is_same {
-            // Better BVHs bring no picture that is worth waiting for.
+            // Better BVHs and previews of materials bring no picture that is worth waiting for.
             return false;
         }
         if self.until_wait > 0 {

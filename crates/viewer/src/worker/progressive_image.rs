@@ -123,6 +123,17 @@ impl ProgressiveImage {
         }
     }
 
+    /// Whether it is the picture of this request, or there is none.
+    pub fn shows(&self, request: Option<&RenderRequest>) -> bool {
+        self.request.as_ref() == request
+    }
+
+    /// Whether every pixel of the full-resolution picture has a sample.
+    pub fn has_sample(&self) -> bool {
+        let renderer = self.renderer.as_ref().filter(|_| !self.is_coarse);
+        renderer.is_some_and(|renderer| renderer.samples_done() > 0)
+    }
+
     /// Whether the picture is finished and presented.
     pub fn is_done(&self) -> bool {
         let is_traced = self.renderer.as_ref().is_none_or(Renderer::is_done);

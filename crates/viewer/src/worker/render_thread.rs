@@ -28,6 +28,8 @@ pub struct RenderRequests {
     pub still: Option<StillRequest>,
     /// Whether the second picture is the main one without denoising.
     pub raw: bool,
+    /// A small picture of a material, rendered once the other pictures have a sample.
+    pub ball: Option<RenderRequest>,
     /// The difference of both pictures; `None` if it is not shown.
     pub difference: Option<ErrorMap>,
     /// Whether something moves, so that a preview is preferred to a full-resolution picture.
@@ -75,6 +77,7 @@ struct State<A> {
     shown: [Option<Shown>; 3],
     still: Option<Screen>,
     difference: Option<ShownDifference>,
+    ball: Option<Screen>,
     fault: Option<Fault>,
     activity: Option<Activity>,
     is_settled: bool,
@@ -133,6 +136,7 @@ impl<A: Send + 'static> RenderThread<A> {
                 shown: [const { None }; 3],
                 still: None,
                 difference: None,
+                ball: None,
                 fault: None,
                 activity: None,
                 is_settled: true,
@@ -164,6 +168,8 @@ impl<A: Send + 'static> RenderThread<A> {
                         };
                         ProgressiveImage::new(gpu.clone(), place, report)
                     }),
+                    ball: ProgressiveImage::new(gpu.clone(), PictureSlot::Beside, Arc::new(|_| ())),
+                    unfit_ball: None,
                     compared: Compared::new(gpu),
                     refused: None,
                 }
@@ -234,6 +240,11 @@ impl<A: Send + 'static> RenderThread<A> {
         self.shared.lock().difference.clone()
     }
 
+    /// The small picture of a material so far.
+    pub fn ball(&self) -> Option<Screen> {
+        self.shared.lock().ball.clone()
+    }
+
     /// The error of the current requests.
     pub fn fault(&self) -> Option<Fault> {
         self.shared.lock().fault.clone()
@@ -263,6 +274,9 @@ struct RenderWorker {
     /// In the order of [`PictureSlot::ALL`].
     images: [ProgressiveImage; 3],
     compared: Compared,
+    ball: ProgressiveImage,
+    /// A ball that cannot be rendered.
+    unfit_ball: Option<RenderRequest>,
     /// Requests that failed, to avoid retrying them.
     refused: Option<RenderRequests>,
 }
@@ -307,6 +321,8 @@ impl RenderWorker {
             }
             state.still = self.compared.still();
             state.difference = self.compared.difference();
+            let ball = self.ball.shown();
+            state.ball = ball.and_then(|shown| shown.screen.or(shown.under));
             match outcome {
                 Ok(is_busy) => {
                     state.fault = (self.refused.is_some().then(|| state.fault.clone())).flatten();
@@ -337,7 +353,8 @@ impl RenderWorker {
     }
 
     fn frames_shown(&self) -> u64 {
-        let rendered = self.images.iter().map(ProgressiveImage::frames_shown);
+        let images = self.images.iter().chain([&self.ball]);
+        let rendered = images.map(ProgressiveImage::frames_shown);
         rendered.sum::<u64>() + self.compared.frames_shown()
     }
 
@@ -367,7 +384,6 @@ impl RenderWorker {
         requests: &RenderRequests,
         questions: Vec<Question<A>>,
     ) -> (Result<bool, Fault>, Vec<Question<A>>, Vec<A>) {
-        let mut is_busy = false;
         if !self.has_refused(requests) {
             self.refused = None;
             if let Err(error) = self.set_requests(requests) {
@@ -394,22 +410,55 @@ impl RenderWorker {
             true => !image.is_shown(),
             false => !image.is_done(),
         };
+        // The ball takes little time, but pictures without a sample come before it.
+        let is_late = |image: &ProgressiveImage| has_work(image) && !image.has_sample();
+        let draws_ball = self.owes_ball(requests) && !self.images.iter().any(is_late);
+        if draws_ball {
+            if let Err(fault) = self.draw_ball(requests) {
+                return (Err(fault), unanswered, answers);
+            }
+        }
         // The picture with the least progress comes first, so that both sides of a comparison advance.
         let waiting = self.images.iter_mut().filter(|image| has_work(image));
+        let waiting = waiting.filter(|_| !draws_ball);
         if let Some(image) = waiting.min_by(|a, b| a.rank().total_cmp(&b.rank())) {
             let is_held = is_held(image);
             if let Err(error) = image.step(is_held) {
                 return (Err(error.into()), unanswered, answers);
             }
-            is_busy = self.images.iter().any(has_work);
         }
+        let changes = self.images.iter().any(has_work);
+        let is_busy = changes || self.owes_ball(requests);
         let [_, beside, main] = &mut self.images;
         let outcome =
-            (self.compared).compare(requests.difference, [beside, main], requests.raw, is_busy);
+            (self.compared).compare(requests.difference, [beside, main], requests.raw, changes);
         if let Err(error) = outcome {
             return (Err(ImageError::from(error).into()), unanswered, answers);
         }
         (Ok(is_busy), unanswered, answers)
+    }
+}
+
+impl RenderWorker {
+    /// Whether the ball is to be rendered: not while something moves, for which the thread must be free.
+    fn owes_ball(&self, requests: &RenderRequests) -> bool {
+        let is_fit = requests.ball.is_none() || requests.ball != self.unfit_ball;
+        let is_drawn = self.ball.shows(requests.ball.as_ref()) && self.ball.is_done();
+        !requests.coarse && is_fit && !is_drawn
+    }
+
+    /// Does the next piece of work for the ball. One that cannot be rendered is left out.
+    fn draw_ball(&mut self, requests: &RenderRequests) -> Result<(), Fault> {
+        let ball = requests.ball.as_ref();
+        let outcome =
+            (self.ball.set_request(ball, false, None)).and_then(|()| self.ball.step(false));
+        match outcome.map_err(Fault::from) {
+            Err(Fault::Refused(_)) => {
+                self.unfit_ball = requests.ball.clone();
+                Ok(())
+            }
+            other => other,
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The window, driven through the names that screen readers read, drawn and rendered by lavapipe; and the models behind it.
 
+mod ball;
 mod bindings;
 mod box_select;
 mod canvas;
@@ -7,6 +8,7 @@ mod command_line;
 mod compare;
 mod contrast;
 mod document;
+mod dropping;
 mod edit;
 mod error_maps;
 mod files;

@@ -20,6 +20,7 @@ impl Session {
             coarse: self.is_moving(),
             paused: self.view.paused,
             prepared: self.prepared.clone(),
+            ball: self.ball.request.clone(),
             ..RenderRequests::default()
         };
         if self.room.taken.0 > 0 && self.room.taken.1 > 0 {

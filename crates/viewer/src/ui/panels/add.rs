@@ -1,6 +1,6 @@
 //! The menu of what can be added to the scene: in the menu bar, and at the cursor.
 
-use crate::actions::adding;
+use crate::actions::{adding, materials};
 use crate::model::adding::Addition;
 use crate::model::material_presets::MaterialPreset;
 use crate::state::session::Session;
@@ -15,7 +15,7 @@ pub fn entries(ui: &mut Ui, session: &mut Session) {
         list(ui, session, &Addition::LIGHTS);
         ui.separator();
         list(ui, session, &[Addition::Camera]);
-        ui.menu_button("Material", |ui| materials(ui, session));
+        ui.menu_button("Material", |ui| presets(ui, session));
         if ui.button("Model from a file…").clicked() {
             ui.close();
             adding::ask_model(session, ui.ctx());
@@ -24,12 +24,12 @@ pub fn entries(ui: &mut Ui, session: &mut Session) {
 }
 
 /// The ready-made materials.
-fn materials(ui: &mut Ui, session: &mut Session) {
+fn presets(ui: &mut Ui, session: &mut Session) {
     let tip = "Add this material. The selected objects get it";
     for preset in MaterialPreset::ALL {
         if ui.button(preset.title()).on_hover_text(tip).clicked() {
             ui.close();
-            adding::add_material(session, preset);
+            materials::add(session, preset);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The outline of the scene.
 
-use crate::actions::editing;
 use crate::actions::selecting::Pick;
+use crate::actions::{editing, materials};
 use crate::model::bindings::Action;
 use crate::model::objects;
 use crate::model::objects::Id;
@@ -9,13 +9,14 @@ use crate::model::outline::{self, Entry};
 use crate::state::files::Part;
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
+use crate::ui::dragged::Dragged;
 use crate::ui::panels::row::write_heading;
 use crate::ui::panels::{icon, parts};
 use eframe::egui::{
     self, Color32, DragAndDrop, Key, Rect, RichText, Sense, StrokeKind, WidgetInfo, WidgetText,
     vec2,
 };
-use glimray_scene::Scene;
+use glimray_scene::{ObjectRef, Scene};
 
 /// Indentation per level.
 const INDENT: f32 = 12.0;
@@ -24,14 +25,12 @@ const ICON: f32 = 16.0;
 /// Size of the triangle that folds a group, in points.
 const TRIANGLE: f32 = 12.0;
 
-/// Lines that are being dragged.
-struct Dragged(Vec<Id>);
-
 /// An action of the user on a row.
 enum Wish {
     Select(Id, Pick),
     Fold(usize),
     Move(Vec<Id>, Option<usize>),
+    Give(usize, ObjectRef),
     Frame(Id),
     Show(Id, bool),
     Rename(Id),
@@ -157,6 +156,7 @@ fn line(
     let (triangle, mut middle) = inner.split_left_right_at_x(inner.min.x + TRIANGLE);
     let is_selected = entry.id.is_some_and(|id| session.is_selected(id));
     accept(ui, &response, scene, entry, wishes);
+    take_material(ui, session, &response, entry.id, wishes);
     let Some(id) = entry.id else {
         response
             .widget_info(|| WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), &entry.label));
@@ -311,16 +311,47 @@ fn accept(
         None if entry.label == outline::OBJECTS => None,
         _ => return,
     };
-    let is_other = |dragged: &Dragged| !(entry.id).is_some_and(|id| dragged.0.contains(&id));
+    let is_other = |dragged: &Dragged| {
+        dragged.material().is_none() && !(entry.id).is_some_and(|id| dragged.0.contains(&id))
+    };
     if (response.dnd_hover_payload::<Dragged>()).is_some_and(|dragged| is_other(&dragged)) {
         let stroke = ui.visuals().selection.stroke;
         ui.painter()
             .rect_stroke(response.rect, 2.0, stroke, StrokeKind::Inside);
     }
-    if let Some(dragged) = response.dnd_release_payload::<Dragged>()
-        && is_other(&dragged)
-    {
+    let is_taken = DragAndDrop::payload::<Dragged>(ui.ctx()).is_some_and(|it| is_other(&it));
+    if is_taken && let Some(dragged) = response.dnd_release_payload::<Dragged>() {
         wishes.push(Wish::Move(dragged.0.clone(), parent));
+    }
+}
+
+/// Takes a material that is dropped on an object's line.
+fn take_material(
+    ui: &egui::Ui,
+    session: &mut Session,
+    response: &egui::Response,
+    id: Option<Id>,
+    wishes: &mut Vec<Wish>,
+) {
+    let Some(Id::Object(object)) = id else {
+        return;
+    };
+    let hovered = response.dnd_hover_payload::<Dragged>();
+    if hovered.is_some_and(|dragged| dragged.material().is_some()) {
+        if let Some(dropping) = &mut session.editing.dropping {
+            dropping.next = Some(object);
+        }
+        let stroke = ui.visuals().selection.stroke;
+        (ui.painter()).rect_stroke(response.rect, 2.0, stroke, StrokeKind::Inside);
+    }
+    // Other lines stay for `accept`.
+    let is_material = DragAndDrop::payload::<Dragged>(ui.ctx())
+        .is_some_and(|dragged| dragged.material().is_some());
+    if is_material
+        && let Some(dragged) = response.dnd_release_payload::<Dragged>()
+        && let Some(material) = dragged.material()
+    {
+        wishes.push(Wish::Give(material, object));
     }
 }
 
@@ -357,6 +388,7 @@ fn grant(session: &mut Session, wish: Wish) {
         Wish::Select(id, pick) => session.pick(id, pick),
         Wish::Fold(row) => session.editing.listing.toggle_fold(row),
         Wish::Move(ids, parent) => session.set_parent(&ids, parent),
+        Wish::Give(material, object) => materials::assign(session, material, object),
         Wish::Frame(id) => session.frame(id),
         Wish::Show(id, visible) if session.is_selected(id) => {
             let ids = session.selected();

@@ -3,6 +3,7 @@
 mod caption;
 mod checker;
 mod compare;
+mod dropping;
 mod framing;
 mod gizmo;
 mod legend;
@@ -82,6 +83,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     context.session.viewport = Some(viewport);
     hover(context, &response, viewport, space);
     ui::ground::draw(context.session, &painter, viewport);
+    dropping::dropping(context.session, &response, viewport);
     let is_taken = region::drag(context.session, &response, viewport)
         || overlay::overlay(context.session, &response, &painter, viewport)
         || ui::section_handle::handle(context.session, &response, &painter, viewport)

@@ -1,5 +1,6 @@
 //! The properties of the selection, or of the scene if nothing is selected.
 
+mod ball;
 mod camera;
 mod environment;
 mod fields;
@@ -17,6 +18,7 @@ use crate::model::objects::Id;
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::panels::{icon, row};
+use ball::BALL;
 use eframe::egui::{self, vec2};
 use fields::{Change, Drawing, Fields, Peers};
 use glimray_scene::{ObjectRef, Scene};
@@ -25,12 +27,14 @@ use glimray_scene::{ObjectRef, Scene};
 pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
     let session = &mut *context.session;
     let Some(scene) = session.scene().cloned() else {
+        session.show_ball(None);
         return;
     };
     let selected = session.selected();
     let mut drawing = Drawing {
         peers: peers(&scene, session, &selected),
         thumbnails: std::mem::take(&mut context.textures.thumbnails),
+        ball: (context.render.ball()).map(|screen| context.textures.id(&screen, true)),
         names: session.files.texturing.names().to_vec(),
         ..Drawing::default()
     };
@@ -79,6 +83,8 @@ pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
     if let Some(place) = drawing.opens {
         texturing::ask(session, ui.ctx(), place);
     }
+    let side = (BALL * ui.ctx().pixels_per_point()).round() as u32;
+    session.show_ball(drawing.ball_of.map(|index| (index, side.max(1))));
     context.textures.thumbnails = drawing.thumbnails;
 }
 

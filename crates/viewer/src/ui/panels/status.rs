@@ -1,7 +1,9 @@
 //! The status bar.
 
+use crate::model::objects::Id;
 use crate::model::tool::Tool;
 use crate::state::cursor::Surface;
+use crate::state::dropping::Dropping;
 use crate::ui::context::PanelContext;
 use crate::ui::ground;
 use crate::ui::panels::jobs;
@@ -40,6 +42,7 @@ pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
                 .on_hover_text("Samples per pixel so far, and the target");
             tool(ui, context);
             drawn(ui, context);
+            dropping(ui, context);
             cursor(ui, context);
             if !context.session.shows_statistics {
                 return;
@@ -101,6 +104,23 @@ fn drawn(ui: &mut egui::Ui, context: &PanelContext) {
             "There are more edges than the window draws. Hide objects or move closer to see the others",
         );
     }
+}
+
+/// What a material is dragged onto.
+fn dropping(ui: &mut egui::Ui, context: &PanelContext) {
+    let session = &context.session;
+    let Some(Dropping { material, over, .. }) = session.editing.dropping else {
+        return;
+    };
+    let material = session.label(Id::Material(material));
+    ui.separator();
+    ui.label(match over {
+        Some(object) => {
+            let object = session.label(Id::Object(object));
+            format!("Give {material} to {object} · Escape cancels")
+        }
+        None => format!("Drop {material} on an object · Escape cancels"),
+    });
 }
 
 /// The pixel under the cursor: its position, its colour and what it shows.

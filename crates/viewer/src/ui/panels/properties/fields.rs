@@ -45,6 +45,10 @@ pub struct Drawing {
     pub peers: Peers,
     /// The thumbnails of pictures.
     pub thumbnails: Thumbnails,
+    /// The picture of a material, once there is one.
+    pub ball: Option<egui::TextureId>,
+    /// The index of the material that the picture is to show.
+    pub ball_of: Option<usize>,
     /// The edits.
     pub changes: Vec<Change>,
     /// The names of the files of pictures that were opened.

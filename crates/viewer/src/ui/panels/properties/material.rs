@@ -1,7 +1,7 @@
 //! The properties of a material.
 
 use super::material_rows::{Part, color, number, with};
-use super::{metallic_roughness, texture_rows};
+use super::{ball, metallic_roughness, texture_rows};
 use crate::model::material_presets::MaterialPreset;
 use crate::model::objects;
 use crate::model::objects::Id;
@@ -20,6 +20,7 @@ const FOLLOWS: &str = "Ambient follows diffuse";
 pub fn show(fields: &mut Fields, index: usize) {
     let scene = fields.scene;
     let material = &scene.materials[index];
+    ball::show(fields, index);
     presets(fields, index);
     match &material.bsdf {
         Bsdf::Phong(phong) => {

@@ -12,6 +12,8 @@ use glimray_scene::{
 
 /// Side of a thumbnail, in points.
 const THUMBNAIL: f32 = 40.0;
+/// Size of the letters of buttons, in points.
+const LETTERS: f32 = 11.0;
 /// Width of a button that opens a picture, in points.
 const OPEN: f32 = 50.0;
 /// The fold of how a picture lies on the surface.
@@ -118,7 +120,7 @@ fn row(fields: &mut Fields, index: usize, slot: &'static TextureSlot) {
 fn button(ui: &mut Ui, width: f32, text: &str, slot: &TextureSlot, tip: &str) -> bool {
     let name = format!("{} {}", text.trim_end_matches('…'), slot.title);
     ui.spacing_mut().button_padding.x = 1.0;
-    let button = egui::Button::new(egui::RichText::new(text).small());
+    let button = egui::Button::new(egui::RichText::new(text).size(LETTERS));
     let size = vec2(width, ui.spacing().interact_size.y);
     let button = ui.add_sized(size, button);
     named(&button, &name);
