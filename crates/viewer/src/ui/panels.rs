@@ -12,7 +12,7 @@ mod picture;
 mod properties;
 pub(super) mod rays;
 pub(super) mod render;
-mod row;
+pub(super) mod row;
 mod setting_rows;
 mod sign;
 mod status;

@@ -3,6 +3,7 @@
 use crate::actions::files::{cameras, parts};
 use crate::state::files::Part;
 use crate::state::session::Session;
+use crate::ui::panels::row::row;
 use eframe::egui::{ComboBox, Ui};
 
 /// Draws the choice among clips, variants or scenes, if there are several.
@@ -59,9 +60,8 @@ fn choice<'a>(
     mut chosen: Option<usize>,
     options: impl Iterator<Item = (Option<usize>, &'a str)>,
 ) -> Option<usize> {
-    ui.horizontal(|ui| {
-        ui.label(title);
-        ComboBox::from_id_salt(title)
+    row(ui, (title, tip), |ui, label| {
+        let list = ComboBox::from_id_salt(title)
             .selected_text(now)
             .truncate()
             .show_ui(ui, |ui| {
@@ -70,8 +70,10 @@ fn choice<'a>(
                 }
             })
             .response
-            .on_hover_text(tip)
-            .accessible_name(title);
+            .on_hover_text(tip);
+        if let Some(label) = label {
+            list.labelled_by(label);
+        }
     });
     chosen
 }

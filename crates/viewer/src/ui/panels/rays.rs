@@ -14,12 +14,16 @@ use crate::state::inspector::Inspected;
 use crate::state::inspector::rows;
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
-use eframe::egui::{self, Align, Layout};
+use crate::ui::panels::row::row;
+use eframe::egui::{self, Align, Id, Layout};
 use glam::DVec3;
 use glimray_app::ray_text::{color, ray_sum, weighted_sum};
 
-/// Gap between controls, so that each line fits the default width of the panel, in points.
+/// Gap between controls, in points.
 const GAP: f32 = 4.0;
+/// Widths of the button that inspects a pixel and of the slider of bounces, in points.
+const INSPECT: f32 = 60.0;
+const SLIDER: f32 = 48.0;
 /// Maximum number of bounces with swatches.
 const MOST_SWATCHES: usize = 24;
 
@@ -65,20 +69,6 @@ fn pixel(ui: &mut egui::Ui, session: &mut Session) {
                 Tool::Inspect
             };
         }
-        let mut pixel = session.inspector.pixel.unwrap_or([width / 2, height / 2]);
-        let mut is_changed = false;
-        for (name, value, length) in [("Column", 0, width), ("Row", 1, height)] {
-            let label = ui.label(name);
-            let drag = egui::DragValue::new(&mut pixel[value]).range(0..=length.saturating_sub(1));
-            let drag = ui.add(drag).labelled_by(label.id);
-            let text = format!("{name} of the pixel, from 0 at the upper left corner");
-            is_changed |= drag.on_hover_text(text).changed();
-        }
-        let again = ui.button("Inspect");
-        let again = again.on_hover_text("Trace the rays of this pixel in the current picture");
-        if again.clicked() || is_changed {
-            inspector::inspect(session, pixel);
-        }
         let follow = ui.checkbox(&mut session.inspector.follows, "Follow the cursor");
         follow.on_hover_text("With this tool, inspect the pixel under the cursor without a click");
         let path = ui.checkbox(&mut session.shows_path, "Path in picture");
@@ -87,10 +77,39 @@ fn pixel(ui: &mut egui::Ui, session: &mut Session) {
             ui.spinner();
         }
     });
+    let mut pixel = session.inspector.pixel.unwrap_or([width / 2, height / 2]);
+    let mut is_wished = false;
+    let tip = "Column and row of the pixel, from 0 at the upper left corner";
+    row(ui, ("Pixel", tip), |ui, _| {
+        let each = (ui.available_width() - INSPECT) / 2.0 - GAP;
+        let size = egui::vec2(each.max(0.0), ui.spacing().interact_size.y);
+        for (name, value, length) in [("Column", 0, width), ("Row", 1, height)] {
+            let drag = egui::DragValue::new(&mut pixel[value]).range(0..=length.saturating_sub(1));
+            let drag = ui.add_sized(size, drag).accessible_name(name);
+            let text = format!("{name} of the pixel, from 0 at the upper left corner");
+            is_wished |= drag.on_hover_text(text).changed();
+        }
+        let again = ui.button("Inspect");
+        let again = again.on_hover_text("Trace the rays of this pixel in the current picture");
+        is_wished |= again.clicked();
+    });
+    if is_wished {
+        inspector::inspect(session, pixel);
+    }
     if inspector::is_stale(session) {
         let colour = ui.visuals().warn_fg_color;
         ui.colored_label(colour, "The picture has changed. Inspect again.");
     }
+}
+
+/// A row of the grid with several fields, which wrap where the panel is narrow.
+fn fields(ui: &mut egui::Ui, label: (&str, &str), fields: impl FnOnce(&mut egui::Ui, Option<Id>)) {
+    row(ui, label, |ui, label| {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            fields(ui, label);
+        });
+    });
 }
 
 /// The sample filter.
@@ -101,11 +120,10 @@ fn sample(ui: &mut egui::Ui, session: &mut Session) {
     };
     let count = inspected.tree.samples.len();
     let before = inspector.filter;
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = GAP;
-        let label = ui.label("Sample");
-        let mut shown = inspector.filter.sample.unwrap_or(0);
-        let is_one = inspector.filter.sample.is_some();
+    let mut shown = inspector.filter.sample.unwrap_or(0);
+    let is_one = inspector.filter.sample.is_some();
+    let mut all = !is_one;
+    fields(ui, ("Sample", "Whose rays are shown"), |ui, label| {
         ui.add_enabled_ui(is_one, |ui| {
             let step = |ui: &mut egui::Ui, sign: &str, name: &str| {
                 let button = ui.button(sign).on_hover_text(name);
@@ -117,19 +135,21 @@ fn sample(ui: &mut egui::Ui, session: &mut Session) {
             if step(ui, "<", "Previous sample") {
                 shown = shown.checked_sub(1).unwrap_or(count - 1);
             }
-            ui.add(egui::DragValue::new(&mut shown).range(0..=count - 1))
-                .labelled_by(label.id)
-                .on_hover_text("Index of the sample, from 0");
+            let drag = ui.add(egui::DragValue::new(&mut shown).range(0..=count - 1));
+            let drag = match label {
+                Some(label) => drag.labelled_by(label),
+                None => drag,
+            };
+            drag.on_hover_text("Index of the sample, from 0");
             if step(ui, ">", "Next sample") {
                 shown = (shown + 1) % count;
             }
         });
         ui.label(format!("of {count}"));
-        let mut all = !is_one;
         ui.checkbox(&mut all, "All samples")
             .on_hover_text("Show the rays of every sample of the pixel");
-        inspector.filter.sample = (!all).then_some(shown);
     });
+    inspector.filter.sample = (!all).then_some(shown);
     if !inspected.is_final {
         ui.weak("Adaptive sampling may still add samples to this pixel.");
     }
@@ -149,24 +169,23 @@ fn bounces(ui: &mut egui::Ui, session: &mut Session) {
     let before = inspector.filter;
     let most = inspected.max_bounces();
     let sums = rows::by_bounce(inspected, inspector.filter.sample);
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = GAP;
-        let label = ui.label("Up to bounce");
+    let tip = "Hide rays after more reflections and refractions than this";
+    fields(ui, ("Up to bounce", tip), |ui, label| {
         let mut shown = inspector.filter.bounces.min(most);
-        ui.spacing_mut().slider_width = 48.0;
+        ui.spacing_mut().slider_width = SLIDER;
         let slider = egui::Slider::new(&mut shown, 0..=most).show_value(false);
-        ui.add_enabled(most > 0, slider)
-            .labelled_by(label.id)
-            .on_hover_text("Hide rays after more reflections and refractions than this");
+        let slider = ui.add_enabled(most > 0, slider).on_hover_text(tip);
+        if let Some(label) = label {
+            slider.labelled_by(label);
+        }
         ui.label(format!("{shown} of {most}"));
         inspector.filter.bounces = if shown == most { u32::MAX } else { shown };
         ui.checkbox(&mut inspector.filter.shadows, "Shadow rays")
             .on_hover_text("Show shadow rays");
     });
-    ui.horizontal_wrapped(|ui| {
+    let tip = "Top: the contribution of a bounce. Bottom: the sum up to it";
+    fields(ui, ("Contribution", tip), |ui, _| {
         ui.spacing_mut().item_spacing.x = 3.0;
-        ui.label("Contribution")
-            .on_hover_text("Top: the contribution of a bounce. Bottom: the sum up to it");
         let mut sum = DVec3::ZERO;
         for (bounce, added) in sums.iter().enumerate().take(MOST_SWATCHES) {
             sum += *added;

@@ -12,8 +12,9 @@ const LABELS: f32 = 0.4;
 const GAP: f32 = 6.0;
 /// Least width of the grid, in points: narrower panels scroll.
 const LEAST: f32 = 170.0;
-/// Size of the letters of a heading, and the space above it, in points.
-const HEADING: f32 = 13.0;
+/// Size of the letters of a heading, in points.
+pub const HEADING: f32 = 13.0;
+/// Space above a heading, in points.
 const ABOVE: f32 = 8.0;
 /// Width of the triangle that folds a section, in points.
 const TRIANGLE: f32 = 10.0;

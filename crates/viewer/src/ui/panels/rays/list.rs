@@ -4,6 +4,7 @@ use crate::state::inspector::ray_labels;
 use crate::state::inspector::rows::{RayId, Row};
 use crate::state::session::Session;
 use crate::ui::panels::rays::paint;
+use crate::ui::panels::row::HEADING;
 use eframe::egui::{self, Align, Layout, RichText, Sense, vec2};
 use glimray_app::ray_text::{color, ray_sum};
 
@@ -60,7 +61,7 @@ pub fn list(ui: &mut egui::Ui, session: &mut Session) {
 
 /// The column headers.
 fn headers(ui: &mut egui::Ui) {
-    let header = |text: &str| egui::Label::new(RichText::new(text).small().strong());
+    let header = |text: &str| egui::Label::new(RichText::new(text).size(HEADING).strong());
     ui.horizontal(|ui| {
         ui.add(header("Ray"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
