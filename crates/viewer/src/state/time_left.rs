@@ -1,9 +1,8 @@
 //! The estimate of the time until the picture is done.
 
+use crate::worker::job::seconds_left;
 use crate::worker::progressive_image::Progress;
 
-/// Seconds of tracing before there is an estimate.
-const FIRST: f64 = 1.0;
 /// Time constant with which the estimate follows the last figure, in seconds of tracing.
 const FOLLOWS: f64 = 4.0;
 
@@ -26,8 +25,8 @@ impl TimeLeft {
             ..
         } = *progress;
         let is_other = traced < self.traced || share < self.share;
-        let is_known = !progress.is_coarse && !progress.is_done && share > 0.0 && traced >= FIRST;
-        let latest = is_known.then(|| traced * (1.0 - share) / share);
+        let goes_on = !progress.is_coarse && !progress.is_done;
+        let latest = seconds_left(traced, [0.0, share]).filter(|_| goes_on);
         let passed = traced - self.traced;
         self.seconds = match (self.seconds.filter(|_| !is_other), latest) {
             (Some(before), Some(latest)) => {

@@ -2,10 +2,10 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-/// A job must have run that long before the rest of its time is estimated.
-const MEASURED: Duration = Duration::from_secs(1);
+/// Seconds of work before the rest is estimated.
+const MEASURED: f64 = 1.0;
 
 /// The progress of a job, and the wish to end it. Clones share one state.
 #[derive(Clone, Debug, Default)]
@@ -80,8 +80,14 @@ impl JobProgress {
     /// Estimated seconds left; `None` until there is something to estimate from.
     pub fn seconds_left(&self) -> Option<f64> {
         let (since, before) = self.began?;
-        let (elapsed, gained) = (since.elapsed(), self.share - before);
-        let is_measured = elapsed >= MEASURED && gained > 0.0 && self.share < 1.0;
-        is_measured.then(|| elapsed.as_secs_f64() * (1.0 - self.share) / gained)
+        seconds_left(since.elapsed().as_secs_f64(), [before, self.share])
     }
+}
+
+/// The seconds of work that are left after `seconds` in which the finished share rose from the first of `shares` to the second.
+/// `None` in the first second, and once everything is done.
+pub fn seconds_left(seconds: f64, [before, share]: [f64; 2]) -> Option<f64> {
+    let gained = share - before;
+    let is_measured = seconds >= MEASURED && gained > 0.0 && share < 1.0;
+    is_measured.then(|| seconds * (1.0 - share) / gained)
 }
