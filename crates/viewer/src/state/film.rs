@@ -9,6 +9,7 @@ use glimray_app::sequence::pattern::Pattern;
 use glimray_app::sequence::{Files, frames_folder};
 use glimray_io::output::Format;
 use glimray_io::output::video::{FrameRate, VideoFormat, VideoOptions};
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::Receiver;
 
@@ -106,7 +107,12 @@ pub struct FilmDialog {
     /// The path from a file dialog, which has confirmed replacing it.
     pub(crate) agreed: Option<PathBuf>,
     pub(crate) asked: Option<Receiver<Reply>>,
+    /// The frames that were looked for last, and whether one of them exists.
+    pub(crate) looked_up: RefCell<Option<(FrameNames, bool)>>,
 }
+
+/// The frames of a film: the typed path, the number of the first, and how many there are.
+pub(crate) type FrameNames = (String, u32, u32);
 
 impl FilmDialog {
     /// The number of frames.
@@ -263,7 +269,22 @@ impl FilmDialog {
     pub fn must_ask(&self, target: &FilmTarget) -> bool {
         match &target.video {
             Some(video) => video.options.clobber && self.agreed.as_ref() != Some(&video.path),
-            None => target.files.pattern.path(target.first).exists(),
+            None => self.has_frames(target),
+        }
+    }
+
+    /// Whether any frame exists. Thousands of files are not looked for in each frame of the window, but once for each edit.
+    fn has_frames(&self, target: &FilmTarget) -> bool {
+        let names = (self.path.clone(), target.first, self.count());
+        let mut looked_up = self.looked_up.borrow_mut();
+        match &*looked_up {
+            Some((known, found)) if *known == names => *found,
+            _ => {
+                let mut numbers = target.first..target.first.saturating_add(self.count());
+                let found = numbers.any(|number| target.files.pattern.path(number).exists());
+                *looked_up = Some((names, found));
+                found
+            }
         }
     }
 }

@@ -251,6 +251,14 @@ fn numbered_frames_that_exist_are_neither_proposed_nor_replaced_unasked() {
         assert!(asks(dialog), "frames are replaced unasked");
         dialog.range[0] = 1;
         assert!(!asks(dialog), "nothing is replaced");
+        // Any frame counts, not only the first.
+        dialog.path = path("late_%04d.png").display().to_string();
+        assert!(!asks(dialog), "there are no late frames");
+        fs::write(path("late_0007.png"), "mine").expect("a file");
+        dialog.range = [1, 6];
+        assert!(!asks(dialog), "the film ends before the frame");
+        dialog.range = [1, 7];
+        assert!(asks(dialog), "the last frame is replaced unasked");
         dialog.range[0] = 0;
         dialog.path = free.display().to_string();
         assert!(!asks(dialog), "the name is free");

@@ -51,6 +51,7 @@ pub fn open(session: &mut Session) {
         inputs: session.files.inputs(),
         agreed: None,
         asked: None,
+        looked_up: Default::default(),
     });
 }
 
