@@ -33,7 +33,7 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) 
         let stays = match dialog {
             Dialog::Shortcuts => shortcuts::show(&ctx, context.session),
             Dialog::Preferences => preferences::show(&ctx, context.session, layout),
-            Dialog::Hint => first_steps::show(&ctx, context.session),
+            Dialog::Hint => first_steps::show(&ctx, context.session, layout),
             Dialog::Messages => messages::show(&ctx, context.session),
             Dialog::Cameras => cameras::show(&ctx, context.session),
             Dialog::Jobs => jobs::show(&ctx, context),

@@ -416,3 +416,33 @@ fn fields_of_a_small_window_at_200_percent_can_be_scrolled_into_view() {
     }
     verdict.close();
 }
+
+#[test]
+fn the_first_steps_of_a_small_window_lie_over_the_picture() {
+    let settings = tempfile::tempdir().expect("a folder");
+    let mut window = Window::open_with(&["--size", "64x48", "--samples", "1"], settings);
+    window.harness.set_size(vec2(640.0, 600.0));
+    window.settle();
+    let picture = window.harness.get_by_label("Rendered picture").rect();
+    let button = window.harness.get_by_label("Got it").rect();
+    assert!(picture.contains_rect(button), "{button:?}, {picture:?}");
+    let outline = window.harness.state().layout().rect(Panel::Outline);
+    let outline = outline.expect("the outline");
+    let text = window.harness.get_by_label("Drop a file").rect();
+    assert!(!outline.intersects(text), "{text:?}, {outline:?}");
+}
+
+#[test]
+fn a_small_picture_has_the_most_important_buttons() {
+    let mut window = Window::open(&["--size", "64x48", "--samples", "1"]);
+    window.harness.set_size(vec2(640.0, 330.0));
+    window.settle();
+    let picture = window.harness.get_by_label("Rendered picture").rect();
+    assert!(picture.height() < 300.0, "{picture:?}");
+    for name in ["View ⏷", "Overlays", "Comparison", "Camera"] {
+        let mut found = window.harness.query_all_by_label(name);
+        let is_inside = found.any(|node| picture.contains_rect(node.rect()));
+        assert!(is_inside, "{name} is not in {picture:?}");
+    }
+    assert!(window.harness.query_by_label("Render region").is_none());
+}

@@ -2,8 +2,9 @@
 
 use crate::model::bindings::Action;
 use crate::state::dialogs::Dialog;
+use crate::state::layout::{Layout, Panel};
 use crate::state::session::Session;
-use eframe::egui::{self, Align2, Grid, RichText};
+use eframe::egui::{self, Align2, Grid, RichText, vec2};
 
 /// The first commands to learn.
 const FIRST: [(Action, &str); 6] = [
@@ -15,13 +16,25 @@ const FIRST: [(Action, &str); 6] = [
     (Action::Help, "Show keyboard shortcuts"),
 ];
 
-/// Draws the dialog. Returns whether it stays open.
-pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
+/// Least width of the panels on the left that may lie below the dialog, in points. Narrower ones would be hidden.
+const LEFT: f32 = 240.0;
+
+/// Draws the dialog: in the lower left corner of the window, or in small windows over the picture. Returns whether it stays
+/// open.
+pub fn show(ctx: &egui::Context, session: &mut Session, layout: &Layout) -> bool {
     let mut stays = true;
+    let window = ctx.content_rect();
+    let small = (layout.rect(Panel::Picture)).filter(|picture| picture.min.x < window.min.x + LEFT);
+    let corner = match small {
+        Some(picture) => picture.left_bottom() + vec2(8.0, -8.0),
+        None => window.left_bottom() + vec2(8.0, -36.0),
+    };
     let opens = egui::Window::new("First steps")
         .collapsible(false)
         .resizable(false)
-        .anchor(Align2::LEFT_BOTTOM, [8.0, -36.0])
+        .movable(false)
+        .pivot(Align2::LEFT_BOTTOM)
+        .fixed_pos(corner)
         .show(ctx, |ui| {
             Grid::new("first")
                 .num_columns(2)

@@ -108,8 +108,8 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     cursor(context.session, &response);
     if toolbar::is_shown(context.session, space) {
         gizmo::gizmo(ui, context.session, room);
-        toolbar::toolbar(ui, context.session, space);
     }
+    toolbar::toolbar(ui, context.session, space);
     if is_scaled && context.session.until_fitted().is_none() && !context.session.files.is_posing() {
         scaled(ui, context, room);
     }

@@ -13,40 +13,67 @@ use eframe::egui::{self, Frame, Margin, Popup, Rect, Sense, Ui, UiBuilder, Vec2,
 
 /// Width of the bar on the left and height of the upper one, with the space around them, in points.
 const BAR: f32 = 40.0;
-/// Smallest picture that has bars, in points.
+/// Smallest picture that has both bars, in points.
 const LEAST: Vec2 = vec2(270.0, 300.0);
 /// Smallest picture whose bars have all buttons, in points.
 const ROOMY: Vec2 = vec2(350.0, 340.0);
+/// Smallest picture that has the upper bar, with its most important buttons, in points.
+const LEAST_UPPER: Vec2 = vec2(184.0, 110.0);
 /// Distance from the edges of the picture, in points.
 const MARGIN: f32 = 6.0;
 
-/// Whether the bars are shown in a picture of this size.
+/// The bars of a picture.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Bars {
+    None,
+    /// The upper one, with few buttons.
+    Upper,
+    Both,
+}
+
+/// The bars that a picture of this size has.
+fn bars(session: &Session, space: Rect) -> Bars {
+    let fits = |least: Vec2| space.size().min(least) == least;
+    let is_wanted = session.shows_overlays && !session.files.is_posing();
+    match is_wanted && session.scene().is_some() {
+        true if fits(LEAST) => Bars::Both,
+        true if fits(LEAST_UPPER) => Bars::Upper,
+        _ => Bars::None,
+    }
+}
+
+/// Whether both bars are shown in a picture of this size.
 pub fn is_shown(session: &Session, space: Rect) -> bool {
-    session.shows_overlays
-        && !session.files.is_posing()
-        && session.scene().is_some()
-        && space.size().min(LEAST) == LEAST
+    bars(session, space) == Bars::Both
 }
 
 /// The part of the picture that the bars leave free.
 pub fn room(session: &Session, space: Rect) -> Rect {
-    match is_shown(session, space) {
-        true => Rect::from_min_max(space.min + Vec2::splat(BAR), space.max),
-        false => space,
-    }
+    let taken = match bars(session, space) {
+        Bars::None => Vec2::ZERO,
+        Bars::Upper => vec2(0.0, BAR),
+        Bars::Both => Vec2::splat(BAR),
+    };
+    Rect::from_min_max(space.min + taken, space.max)
 }
 
-/// Draws both bars.
+/// Draws the bars.
 pub fn toolbar(ui: &mut Ui, session: &mut Session, space: Rect) {
-    if !is_shown(session, space) {
+    let bars = bars(session, space);
+    if bars == Bars::None {
         return;
     }
     let corner = space.min + Vec2::splat(MARGIN);
     let upper = Rect::from_min_max(corner, pos2(space.max.x - MARGIN, corner.y));
-    let is_wide = space.width() >= ROOMY.x;
+    let has_room = bars == Bars::Both;
+    let is_wide = has_room && space.width() >= ROOMY.x;
     bar(ui, upper, |ui| {
-        ui.horizontal(|ui| view(ui, session, is_wide)).inner
+        ui.horizontal(|ui| view(ui, session, has_room, is_wide))
+            .inner
     });
+    if !has_room {
+        return;
+    }
     let left = Rect::from_min_max(
         corner + vec2(0.0, BAR),
         pos2(corner.x + BAR, space.max.y - MARGIN),
@@ -125,12 +152,17 @@ fn history(ui: &mut Ui, session: &mut Session) {
     }
 }
 
-/// The buttons of the upper bar; the less important ones only where it `is_wide`.
-fn view(ui: &mut Ui, session: &mut Session, is_wide: bool) {
+/// The upper bar. Without room it has neither the name of the view mode nor the render region, and only where it `is_wide` the
+/// less important buttons.
+fn view(ui: &mut Ui, session: &mut Session, has_room: bool, is_wide: bool) {
     // As high as the other buttons.
     ui.spacing_mut().interact_size.y = SIDE;
     let mut shown = view_mode::shown(&session.view);
-    let menu = ui.menu_button(format!("{} ⏷", view_mode::name(shown)), |ui| {
+    let name = match has_room {
+        true => view_mode::name(shown),
+        false => "View".to_owned(),
+    };
+    let menu = ui.menu_button(format!("{name} ⏷"), |ui| {
         let height = ui.ctx().content_rect().height() - 120.0;
         egui::ScrollArea::vertical()
             .min_scrolled_height(height)
@@ -158,6 +190,16 @@ fn view(ui: &mut Ui, session: &mut Session, is_wide: bool) {
         overlays(ui, session);
     }
     compare(ui, session);
+    if has_room {
+        region(ui, session);
+    }
+    if is_wide {
+        snapping(ui, session);
+    }
+    camera(ui, session);
+}
+
+fn region(ui: &mut Ui, session: &mut Session) {
     let region = Action::Tool(Tool::Region);
     let is_active = session.tool == Tool::Region || session.view.region.is_some();
     let response = button(
@@ -170,10 +212,6 @@ fn view(ui: &mut Ui, session: &mut Session, is_wide: bool) {
     if response.on_hover_text(tip(session, region)).clicked() {
         session.clicked.push(region);
     }
-    if is_wide {
-        snapping(ui, session);
-    }
-    camera(ui, session);
 }
 
 fn snapping(ui: &mut Ui, session: &mut Session) {
