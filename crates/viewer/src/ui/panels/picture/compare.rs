@@ -10,7 +10,9 @@ use crate::ui::panels::picture::legend;
 use crate::ui::panels::picture::{WHOLE, draw};
 use crate::ui::panels::setting_rows::title;
 use crate::worker::progressive_image::PictureSlot;
-use eframe::egui::{self, Align2, Color32, CursorIcon, EventFilter, Key, Pos2, Rect, Stroke, vec2};
+use eframe::egui::{
+    self, Align2, Color32, CursorIcon, EventFilter, Key, Pos2, Rect, Stroke, pos2, vec2,
+};
 use glimray_app::value_names::INTEGRATORS;
 
 /// Distance within which the line can be dragged, in points.
@@ -202,7 +204,9 @@ fn difference(
         measure => format!("{}. The mean of all pixels, without the gain", measure.help()),
     });
     if map.measure != Measure::Absolute {
-        legend::errors(ui, painter, map, picture);
+        // Above the mean.
+        let above = Rect::from_min_max(picture.min, pos2(picture.max.x, rect.min.y + 4.0));
+        legend::errors(ui, painter, map, above);
     }
 }
 

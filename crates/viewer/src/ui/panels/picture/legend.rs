@@ -38,7 +38,7 @@ pub fn legend(
     place(ui, painter, (rect, is_right), &texts, colors, &told);
 }
 
-/// Draws the legend of an error map in the lower right corner of `rect`.
+/// Draws the legend of an error map in the lower left corner of `rect`.
 pub fn errors(ui: &egui::Ui, painter: &egui::Painter, map: ErrorMap, rect: Rect) {
     let most = number(1.0 / map.gain);
     let end = match map.measure {
@@ -50,7 +50,7 @@ pub fn errors(ui: &egui::Ui, painter: &egui::Painter, map: ErrorMap, rect: Rect)
     let told = format!("Legend: {title} from 0 (black) to {most} (pale yellow)");
     let texts = [(0.0, "0".to_owned()), (1.0, end)];
     let colors = |bar| gradient(bar, ERRORS);
-    place(ui, painter, (rect, true), &texts, colors, &told);
+    place(ui, painter, (rect, false), &texts, colors, &told);
 }
 
 /// Draws the legend of luminance in false colours.
