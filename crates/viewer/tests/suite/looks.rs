@@ -162,6 +162,8 @@ fn every_panel_is_legible_in_both_themes_at_both_scales() {
     let mut verdict = Verdict::on("panels");
     let looks = [
         (Theme::Dark, "dark", 1.0, "100"),
+        (Theme::Dark, "dark", 2.0, "200"),
+        (Theme::Light, "light", 1.0, "100"),
         (Theme::Light, "light", 2.0, "200"),
     ];
     for (theme, color, scale, percent) in looks {
