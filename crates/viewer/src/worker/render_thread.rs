@@ -413,10 +413,8 @@ impl RenderWorker {
         // The ball takes little time, but pictures without a sample come before it.
         let is_late = |image: &ProgressiveImage| has_work(image) && !image.has_sample();
         let draws_ball = self.owes_ball(requests) && !self.images.iter().any(is_late);
-        if draws_ball {
-            if let Err(fault) = self.draw_ball(requests) {
-                return (Err(fault), unanswered, answers);
-            }
+        if draws_ball && let Err(fault) = self.draw_ball(requests) {
+            return (Err(fault), unanswered, answers);
         }
         // The picture with the least progress comes first, so that both sides of a comparison advance.
         let waiting = self.images.iter_mut().filter(|image| has_work(image));
