@@ -1,5 +1,6 @@
 //! Handles the answers of the render thread.
 
+use crate::actions::box_select;
 use crate::actions::comparing;
 use crate::actions::files::pictures;
 use crate::actions::inspector;
@@ -21,7 +22,10 @@ impl Session {
             Answer::PixelValues(pixels) => pixel_values::read(self, pixels),
             Answer::Snapshot(snapshot) => comparing::kept(self, *snapshot),
             Answer::Bookmarked(scene, saved) => self.preferences.picture_camera(&scene, &saved),
-            Answer::Seen(seen) => sight::take(self, seen),
+            Answer::Seen(seen) => {
+                sight::take(self, seen);
+                box_select::go_on(self);
+            }
             Answer::Nothing => {}
             Answer::Copied(image) => self.files.copied = Some(image),
             Answer::Picture(picture) => pictures::captured(self, *picture),

@@ -12,6 +12,8 @@ use glimray_scene::{CanonicalShape, Geometry, ObjectRef, Scene, corners};
 
 /// How near the pointer must be to a vertex, in points of the screen.
 const REACH: f32 = 8.0;
+/// The most vertices of a mesh that are looked at while the pointer moves.
+const MOST_VERTICES: usize = 100_000;
 /// How much farther than the surface under the pointer a vertex may be while it is not known what hides it, as a share of the
 /// distance.
 const SLACK: f64 = 0.02;
@@ -27,6 +29,18 @@ pub fn picked(session: &mut Session, pixel: [u32; 2], hit: Option<(DVec3, Option
         let distance = number(a.distance(b) as f32);
         session.messages.notify(format!("Distance: {distance}"));
     }
+}
+
+/// The vertex that a click on a pixel would take, if it is quickly found.
+pub fn vertex_under(session: &Session, pixel: [u32; 2]) -> Option<DVec3> {
+    let scene = session.scene()?;
+    let seen = sight::current(session)?;
+    let vertices = seen.sight.objects().into_iter().map(|object| match object {
+        ObjectRef::Instance(index) => scene.meshes[scene.instances[index].mesh].positions.len(),
+        _ => 0,
+    });
+    let is_quick = vertices.max().is_none_or(|most| most <= MOST_VERTICES);
+    is_quick.then(|| vertex_at(session, pixel, None)).flatten()
 }
 
 /// Removes the last measurement while the tool is active. Returns whether there was one.

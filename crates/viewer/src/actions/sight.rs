@@ -1,6 +1,5 @@
 //! Asks the render thread what each pixel of the picture shows, as soon as the camera rests and something needs it.
 
-use crate::actions::box_select;
 use crate::model::camera::ray_through;
 use crate::model::edges;
 use crate::model::objects::{self, Id};
@@ -17,7 +16,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The most pixels that have an entry each; in larger pictures several share one. Software renderers get fewer.
-const MOST: u64 = 1 << 22;
+const MOST: u64 = 1 << 21;
 const MOST_ON_CPU: u64 = 1 << 20;
 
 /// The picture as it is now; `None` before there is one.
@@ -73,7 +72,6 @@ pub fn take(session: &mut Session, seen: Option<Box<Seen>>) {
     if let Some(seen) = seen {
         session.sight.latest = Some(Arc::from(seen));
         session.sight.silhouettes = None;
-        box_select::go_on(session);
     }
 }
 
@@ -133,7 +131,7 @@ fn sight(frame: &FrameRenderer, subject: &Subject) -> Result<Sight, RenderError>
         Some(hit) => (query.object_of(&hit), hit.t + start),
         None => (None, Sight::NOTHING),
     });
-    Ok(Sight::new(subject.size, step, seen.collect()))
+    Ok(Sight::new(subject.size, step, seen))
 }
 
 /// The ray through a position of the picture between the planes of the camera, and how far along it begins.

@@ -1,12 +1,11 @@
 //! The grid on the ground: which lines it has in a view.
 
 use crate::model::handles::Eye;
+use crate::model::snapping::{LEAST, grid_step};
 use glam::DVec3;
 
 /// Lines to each side of the middle.
 const COUNT: i64 = 40;
-/// The least distance of two lines at the pivot, in points of the screen.
-const LEAST: f64 = 14.0;
 /// Every so many lines one is stronger.
 const STRONG: i64 = 10;
 
@@ -34,11 +33,6 @@ pub struct Grid {
     pub lines: Vec<GridLine>,
 }
 
-/// The distance of grid lines where a point of the screen is `length` scene units long.
-pub fn step(length: f64) -> f64 {
-    10_f64.powf((LEAST * length).log10().ceil())
-}
-
 impl Grid {
     /// The grid around `pivot`, in the plane through the origin across `up`. An orthographic camera that looks along that plane and
     /// along another axis gets the grid across its view. `length` is the size of a point of the screen at the pivot, in scene
@@ -56,7 +50,7 @@ impl Grid {
         let &[first, second] = across.as_slice() else {
             return None;
         };
-        let step = step(length);
+        let step = grid_step(length);
         if !step.is_normal() {
             return None;
         }

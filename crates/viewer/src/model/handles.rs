@@ -6,8 +6,8 @@ mod amounts;
 pub mod lamp;
 
 use crate::model::camera::{distance_along, project, ray_through};
-use crate::model::grid;
 use crate::model::objects::{Freedom, Scaling};
+use crate::model::snapping::{Snap, grid_step};
 use crate::model::tool::Tool;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use glimray_scene::Camera;
@@ -42,30 +42,6 @@ pub enum Part {
     Ring(usize),
     /// In the plane of the picture, around the viewing direction, or uniformly.
     All,
-}
-
-/// How a drag is rounded.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Snap {
-    /// Not at all.
-    #[default]
-    Off,
-    /// To whole steps: of the grid at that distance, 15°, or 0.1.
-    Whole,
-    /// To finer steps: a tenth of the grid, 5°, or 0.01.
-    Fine,
-}
-
-impl Snap {
-    /// A number rounded to steps of these sizes.
-    fn round(self, value: f64, whole: f64, fine: f64) -> f64 {
-        let step = match self {
-            Self::Off => return value,
-            Self::Whole => whole,
-            Self::Fine => fine,
-        };
-        (value / step).round() * step
-    }
 }
 
 /// The view in which the handles are used.
@@ -313,7 +289,7 @@ impl Grip {
             reach,
             ..
         } = self.handles;
-        let step = grid::step(reach / f64::from(LENGTH));
+        let step = grid_step(reach / f64::from(LENGTH));
         let whole = |v: f64| snap.round(v, step, step / 10.0);
         let in_plane = |normal| {
             let at = |position| on_plane(self.ray(eye, position), origin, normal);

@@ -7,7 +7,7 @@ pub use contour::contours;
 
 use glam::{DVec2, UVec2};
 use glimray_scene::ObjectRef;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeSet, HashMap};
 
 /// The first surface in each pixel of a picture, seen through its centre.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,8 +16,11 @@ pub struct Sight {
     step: u32,
     /// Number of entries in a row and in a column.
     size: UVec2,
-    /// The object, and the distance along the ray from where the ray begins, in scene units. Row by row from the top left.
-    seen: Vec<(Option<ObjectRef>, f32)>,
+    /// The objects that can be seen.
+    objects: Vec<ObjectRef>,
+    /// The index of the object plus 1, 0 for none, and the distance along the ray from where the ray begins, in scene units.
+    /// Row by row from the top left.
+    seen: Vec<(u32, f32)>,
 }
 
 impl Sight {
@@ -26,16 +29,34 @@ impl Sight {
     /// How much farther than a surface a point may be that lies on it, as a share of the distance.
     const SLACK: f64 = 2e-3;
 
-    /// The entries of a picture of `size` pixels, where every `step`th row and column has one.
+    /// The entries of a picture of `size` pixels, where every `step`th row and column has one: what each of [`Sight::places`] shows,
+    /// and how far away it is.
     ///
     /// # Panics
-    /// The number of entries is not that of [`Sight::places`].
-    pub fn new(size: (u32, u32), step: u32, seen: Vec<(Option<ObjectRef>, f32)>) -> Self {
+    /// The number of entries is another one.
+    pub fn new(
+        size: (u32, u32),
+        step: u32,
+        seen: impl Iterator<Item = (Option<ObjectRef>, f32)>,
+    ) -> Self {
         let entries = Self::entries(size, step);
+        let mut objects = Vec::new();
+        let mut numbers = HashMap::new();
+        let seen = seen.map(|(object, distance)| {
+            let number = object.map_or(0, |object| {
+                *numbers.entry(object).or_insert_with(|| {
+                    objects.push(object);
+                    objects.len() as u32
+                })
+            });
+            (number, distance)
+        });
+        let seen: Vec<_> = seen.collect();
         assert_eq!(seen.len(), entries.element_product() as usize);
         Self {
             step,
             size: entries,
+            objects,
             seen,
         }
     }
@@ -56,10 +77,10 @@ impl Sight {
         })
     }
 
-    fn entry(&self, column: i64, row: i64) -> Option<&(Option<ObjectRef>, f32)> {
+    fn entry(&self, column: i64, row: i64) -> Option<(u32, f32)> {
         let (width, height) = (i64::from(self.size.x), i64::from(self.size.y));
         let is_inside = (0..width).contains(&column) && (0..height).contains(&row);
-        is_inside.then(|| &self.seen[(row * width + column) as usize])
+        is_inside.then(|| self.seen[(row * width + column) as usize])
     }
 
     fn cell(&self, position: DVec2) -> (i64, i64) {
@@ -67,10 +88,10 @@ impl Sight {
         (cell.x as i64, cell.y as i64)
     }
 
-    /// The object at a position in the picture, in pixels from its upper left corner.
-    pub fn object_at(&self, position: DVec2) -> Option<ObjectRef> {
-        let (column, row) = self.cell(position);
-        self.entry(column, row)?.0
+    /// The object with a number.
+    fn object(&self, number: u32) -> Option<ObjectRef> {
+        let index = (number as usize).checked_sub(1)?;
+        self.objects.get(index).copied()
     }
 
     /// Whether a point that is projected to `position` is not hidden: `distance` is that from where the ray through it begins.
@@ -81,7 +102,7 @@ impl Sight {
         let mut farthest: Option<f32> = None;
         for (dx, dy) in [(0, 0), (-1, 0), (1, 0), (0, -1), (0, 1)] {
             if let Some((_, seen)) = self.entry(column + dx, row + dy) {
-                farthest = Some(farthest.map_or(*seen, |before| before.max(*seen)));
+                farthest = Some(farthest.map_or(seen, |before| before.max(seen)));
             }
         }
         farthest.is_none_or(|farthest| distance * (1.0 - Self::SLACK) <= f64::from(farthest))
@@ -94,39 +115,36 @@ impl Sight {
         let mut found = BTreeSet::new();
         for row in within(min.1, max.1, self.size.y) {
             for column in within(min.0, max.0, self.size.x) {
-                found.extend(self.entry(column, row).and_then(|entry| entry.0));
+                found.extend(self.entry(column, row).map(|entry| entry.0));
             }
         }
         found
+            .into_iter()
+            .filter_map(|number| self.object(number))
+            .collect()
     }
 
     /// All objects that can be seen, those first that cover most of the picture.
     pub fn objects(&self) -> Vec<ObjectRef> {
-        let mut areas: BTreeMap<ObjectRef, usize> = BTreeMap::new();
-        // Neighbours mostly show the same object.
-        for run in self.seen.chunk_by(|a, b| a.0 == b.0) {
-            if let Some(object) = run[0].0 {
-                *areas.entry(object).or_default() += run.len();
+        let mut areas: Vec<(usize, ObjectRef)> = self.objects.iter().map(|it| (0, *it)).collect();
+        for (number, _) in &self.seen {
+            if let Some(index) = number.checked_sub(1) {
+                areas[index as usize].0 += 1;
             }
         }
-        let mut objects: Vec<_> = areas.into_iter().collect();
-        objects.sort_by_key(|(_, area)| std::cmp::Reverse(*area));
-        objects.into_iter().map(|(object, _)| object).collect()
+        areas.sort_by_key(|(area, object)| (std::cmp::Reverse(*area), *object));
+        areas.into_iter().map(|(_, object)| object).collect()
     }
 
     /// The silhouette of each object that `is_part` accepts, in pixels from the upper left corner. Where the picture ends, they are
     /// open.
     pub fn silhouettes(&self, is_part: impl Fn(ObjectRef) -> bool) -> Vec<Vec<DVec2>> {
-        let mut numbers: BTreeMap<ObjectRef, u32> = BTreeMap::new();
-        let mut regions = Vec::with_capacity(self.seen.len());
-        for run in self.seen.chunk_by(|a, b| a.0 == b.0) {
-            let object = run[0].0.filter(|object| is_part(*object));
-            let number = object.map_or(0, |object| {
-                let next = numbers.len() as u32 + 1;
-                *numbers.entry(object).or_insert(next)
-            });
-            regions.resize(regions.len() + run.len(), number);
-        }
+        let parts: Vec<bool> = self.objects.iter().map(|object| is_part(*object)).collect();
+        let region = |(number, _): &(u32, f32)| match number.checked_sub(1) {
+            Some(index) if parts[index as usize] => *number,
+            _ => 0,
+        };
+        let regions: Vec<u32> = self.seen.iter().map(region).collect();
         let mut lines = contours(&regions, self.size);
         let step = f64::from(self.step);
         lines.iter_mut().flatten().for_each(|point| *point *= step);

@@ -1,8 +1,9 @@
 //! The grid on the ground, and the edges of meshes.
 
 use crate::actions::sight;
-use crate::model::grid::{self, Grid};
+use crate::model::grid::Grid;
 use crate::model::handles::Eye;
+use crate::model::snapping::grid_step;
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;
 use crate::state::sight::{Drawn, Seen};
@@ -111,5 +112,5 @@ pub fn spacing(session: &Session, viewport: Viewport) -> Option<f64> {
     };
     let pivot = session.controller.as_ref()?.pivot();
     let point = viewport.length(vec2(1.0, 0.0)).x;
-    Some(grid::step(eye.pixel_at(pivot).abs() * point))
+    Some(grid_step(eye.pixel_at(pivot).abs() * point))
 }

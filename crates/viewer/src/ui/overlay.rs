@@ -4,10 +4,11 @@ mod lamp;
 
 use crate::actions::editing;
 use crate::model::bindings::Action;
-use crate::model::handles::{Eye, Grip, Handles, LENGTH, Part, Snap};
+use crate::model::handles::{Eye, Grip, Handles, LENGTH, Part};
 use crate::model::modal::Modal;
 use crate::model::objects;
 use crate::model::objects::Id;
+use crate::model::snapping::Snap;
 use crate::model::tool::Tool;
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;

@@ -6,7 +6,7 @@ use crate::model::viewport::Viewport;
 use crate::state::session::Session;
 use crate::ui::overlay::{SLACK, draw_handles, held};
 use crate::ui::world_painter::WorldPainter;
-use eframe::egui::{self, Color32, Painter, PointerButton, vec2};
+use eframe::egui::{self, Color32, Painter, PointerButton, Pos2, vec2};
 use glam::{DAffine3, DMat3, DVec3};
 use glimray_app::legend::number;
 use glimray_scene::Section;
@@ -56,6 +56,14 @@ impl Gizmo {
         }
     }
 
+    /// The part within reach of a point of the screen.
+    fn part_at(&self, view: &WorldPainter, at: Pos2) -> Option<Part> {
+        let slack = view.viewport.length(vec2(SLACK, 0.0)).x;
+        let at = view.viewport.position(at);
+        let arrow = self.arrow.part_at(view.eye, at, slack);
+        arrow.or_else(|| self.rings.part_at(view.eye, at, slack))
+    }
+
     fn draw(&self, view: &WorldPainter, half: f64, hot: Option<Part>) {
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
             .map(|(x, y)| self.place.transform_point3(DVec3::new(x, y, 0.0) * half));
@@ -99,43 +107,58 @@ pub fn handle(
     };
     let middle = bounds.0.midpoint(bounds.1);
     let half = 0.5 * bounds.0.distance(bounds.1);
-    let pixels = |points: f32| viewport.length(vec2(points, 0.0)).x;
+    let length = viewport.length(vec2(LENGTH, 0.0)).x;
     let origin = middle + section.normal * (section.offset - section.normal.dot(middle));
     if eye.project(origin).is_none() {
         session.editing.section = None;
         return false;
     }
-    let gizmo = Gizmo::new(section, middle, eye.pixel_at(origin) * pixels(LENGTH));
-    let ctx = &response.ctx;
-    let (pointer, pressed) =
-        ctx.input(|input| (input.pointer.latest_pos(), input.pointer.press_origin()));
-    let part_at = |at: egui::Pos2| {
-        let at = viewport.position(at);
-        let slack = pixels(SLACK);
-        let arrow = gizmo.arrow.part_at(eye, at, slack);
-        arrow.or_else(|| gizmo.rings.part_at(eye, at, slack))
-    };
-    if response.drag_started_by(PointerButton::Primary)
-        && let Some(pressed) = pressed
-        && let Some(part) = part_at(pressed)
-    {
-        let handles = gizmo.of(part).clone();
-        let grip = Grip::new(part, handles, gizmo.place, viewport.position(pressed));
-        session.editing.section = Some((grip, pressed));
-    }
-    let Some((mut grip, last)) = session.editing.section.take() else {
-        let hovered = pointer.filter(|_| response.hovered()).and_then(part_at);
+    let gizmo = Gizmo::new(section, middle, eye.pixel_at(origin) * length);
+    begin(session, response, &view, &gizmo);
+    let Some((grip, last)) = session.editing.section.take() else {
+        let pointer = response.hover_pos();
+        let hovered = pointer.and_then(|at| gizmo.part_at(&view, at));
         gizmo.draw(&view, half, hovered);
         if hovered.is_some() {
-            ctx.set_cursor_icon(egui::CursorIcon::Grab);
+            response.ctx.set_cursor_icon(egui::CursorIcon::Grab);
         }
         return false;
     };
+    drag(session, response, &view, (gizmo, half), (grip, last));
+    true
+}
+
+/// Takes the part of the handle on which the button was pressed.
+fn begin(session: &mut Session, response: &egui::Response, view: &WorldPainter, gizmo: &Gizmo) {
+    let pressed = response.ctx.input(|input| input.pointer.press_origin());
+    if response.drag_started_by(PointerButton::Primary)
+        && let Some(pressed) = pressed
+        && let Some(part) = gizmo.part_at(view, pressed)
+    {
+        let handles = gizmo.of(part).clone();
+        let from = view.viewport.position(pressed);
+        let grip = Grip::new(part, handles, gizmo.place, from);
+        session.editing.section = Some((grip, pressed));
+    }
+}
+
+/// Goes on with a drag, and ends it when the button is released.
+fn drag(
+    session: &mut Session,
+    response: &egui::Response,
+    view: &WorldPainter,
+    (gizmo, half): (Gizmo, f64),
+    (mut grip, last): (Grip, Pos2),
+) {
+    let ctx = &response.ctx;
+    let section = session.scene().and_then(|scene| scene.section);
     let (is_fine, snap) = held(session, ctx);
-    let now = pointer.unwrap_or(last);
-    grip.move_pointer(viewport.length(now - last), is_fine);
+    let now = ctx
+        .input(|input| input.pointer.latest_pos())
+        .unwrap_or(last);
+    grip.move_pointer(view.viewport.length(now - last), is_fine);
     let mut shown = gizmo;
-    if let Some(dragged) = grip.dragged(eye, snap) {
+    if let (Some(dragged), Some(section)) = (grip.dragged(view.eye, snap), section) {
         let (to, name, label) = moved(&grip, dragged.place, &dragged.label, section);
         if to != section && now != last {
             session.drag_change(name, |scene| {
@@ -147,14 +170,13 @@ pub fn handle(
         view.text(now + vec2(18.0, -18.0), &label);
     }
     ctx.set_cursor_icon(egui::CursorIcon::Grabbing);
-    shown.draw(&view, half, Some(grip.part));
+    shown.draw(view, half, Some(grip.part));
     if response.dragged_by(PointerButton::Primary) {
         session.moved();
         session.editing.section = Some((grip, now));
     } else if let Some(document) = &mut session.document {
         document.release();
     }
-    true
 }
 
 /// The plane after a drag, the name of the edit, and what is shown beside the pointer.

@@ -1,6 +1,6 @@
 //! The overlays of the tools. The handles of the selection are in `overlay.rs`.
 
-use crate::actions::lighting;
+use crate::actions::{lighting, measuring};
 use crate::model::environment::BackgroundLight;
 use crate::model::handles::Eye;
 use crate::model::tool::{BoxMode, Tool};
@@ -88,6 +88,14 @@ fn measurement(painter: &Painter, session: &Session, viewport: Viewport) {
             let border = Stroke::new(1.5, SHADE);
             painter.circle(viewport.point(at), 4.0, MEASURE, border);
         }
+    }
+    let pointer = painter.ctx().pointer_hover_pos();
+    let pixel = pointer.and_then(|at| viewport.pixel(at));
+    let vertex = pixel.and_then(|pixel| measuring::vertex_under(session, pixel));
+    if let Some(at) = vertex.and_then(|vertex| view.eye.project(vertex)) {
+        let at = viewport.point(at);
+        painter.circle_stroke(at, 6.0, Stroke::new(3.0, SHADE));
+        painter.circle_stroke(at, 6.0, Stroke::new(1.5, MEASURE));
     }
     let current = state.measured_line();
     for ends in lines {

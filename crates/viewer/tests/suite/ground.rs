@@ -9,8 +9,9 @@ use glimray::scene::{Camera, Mesh};
 use glimray_viewer::model::bindings::Action;
 use glimray_viewer::model::camera::project;
 use glimray_viewer::model::edges::MeshEdges;
-use glimray_viewer::model::grid::{Grid, step};
+use glimray_viewer::model::grid::Grid;
 use glimray_viewer::model::handles::Eye;
+use glimray_viewer::model::snapping::grid_step;
 use tempfile::TempDir;
 
 /// A cube with sides of 2, seen from a corner, before a black background.
@@ -78,7 +79,7 @@ fn the_axes_of_the_grid_are_seen_beside_an_object_and_not_before_it() {
 #[test]
 fn the_grid_has_steps_of_powers_of_ten_and_lies_on_the_ground() {
     for (length, expected) in [(0.01, 1.0), (0.07, 1.0), (0.08, 10.0), (7e-6, 1e-4)] {
-        let found = step(length);
+        let found = grid_step(length);
         assert!((found / expected - 1.0).abs() < 1e-12, "{length}: {found}");
     }
     let camera = Camera {

@@ -4,9 +4,10 @@ use crate::support::verdict::Verdict;
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, dvec2, dvec3};
 use glimray::scene::Camera;
 use glimray_viewer::model::handles::{
-    Eye, Grip, Handles, Part, Snap, angle_between, nearest_on_line, on_plane,
+    Eye, Grip, Handles, Part, angle_between, nearest_on_line, on_plane,
 };
 use glimray_viewer::model::objects::{Freedom, Scaling};
+use glimray_viewer::model::snapping::Snap;
 use glimray_viewer::model::tool::Tool;
 use std::f64::consts::{FRAC_PI_2, PI};
 

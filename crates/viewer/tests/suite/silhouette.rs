@@ -2,8 +2,10 @@
 
 use super::edit::{BLUE, RED, file, on_screen, open};
 use crate::harness::Window;
+use crate::reference::compare::render;
 use eframe::egui::{Key, Pos2};
 use glam::{DVec2, DVec3, dvec2, dvec3};
+use glimray::render::Tone;
 use glimray::scene::ObjectRef;
 use glimray_viewer::actions::sight;
 use glimray_viewer::model::objects::Id;
@@ -80,7 +82,7 @@ fn the_outline_of_a_ball_is_the_disc_that_it_is_projected_to() {
 }
 
 #[test]
-fn the_last_one_selected_leads_and_the_others_have_lines_of_their_own() {
+fn the_lead_and_the_others_have_lines_of_their_own() {
     let (_folder, path) = file();
     let mut window = open(&path, "400x300");
     window.session().select(vec![BLUE, RED]);
@@ -88,8 +90,10 @@ fn the_last_one_selected_leads_and_the_others_have_lines_of_their_own() {
     let found = silhouettes(&window);
     for (lines, center) in [(&found.lead, 1.0), (&found.others, -1.0)] {
         assert_eq!(lines.len(), 1);
-        let (off, _) = off_disc(lines[0][0], dvec3(center, 0.0, 0.0));
-        assert!(off.abs() < 1.0, "{off} pixels off the disc at {center}");
+        for at in &lines[0] {
+            let (off, _) = off_disc(*at, dvec3(center, 0.0, 0.0));
+            assert!(off.abs() < 1.0, "{off} pixels off the disc at {center}");
+        }
     }
 }
 
@@ -165,6 +169,36 @@ fn an_outline_follows_a_ball_that_was_moved_and_the_camera() {
     assert!(off > 2.0, "the outline stays although the camera has moved");
 }
 
+#[test]
+fn a_picture_that_is_looked_at_while_it_refines_keeps_its_pixels() {
+    let (_folder, path) = file();
+    let arguments = [
+        path.to_str().expect("UTF-8"),
+        "--size",
+        "400x300",
+        "--samples",
+        "64",
+    ];
+    let mut window = Window::open(&arguments);
+    let mut looks = 0;
+    for round in 0..10_000 {
+        window
+            .session()
+            .select(vec![if round % 2 == 0 { RED } else { BLUE }]);
+        // Each answer is asked for anew.
+        looks += u32::from(window.session().sight.latest.take().is_some());
+        window.harness.step();
+        if looks > 3 && window.harness.state().is_settled() {
+            break;
+        }
+    }
+    assert!(looks > 3, "only {looks} answers");
+    window.settle();
+    let scene = super::edit::scene(&window);
+    let (expected, _) = render(&scene, &window.request().settings);
+    assert!(window.image(Tone::LINEAR) == expected, "other pixels");
+}
+
 /// A picture of letters: each letter is an object.
 fn letters(rows: &[&str]) -> Sight {
     let size = (rows[0].len() as u32, rows.len() as u32);
@@ -172,7 +206,7 @@ fn letters(rows: &[&str]) -> Sight {
         let object = (letter != b' ').then(|| ObjectRef::Shape((letter - b'a').into()));
         (object, f32::from(letter))
     });
-    Sight::new(size, 1, seen.collect())
+    Sight::new(size, 1, seen)
 }
 
 #[test]

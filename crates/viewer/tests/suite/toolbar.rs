@@ -446,3 +446,31 @@ fn a_small_picture_has_the_most_important_buttons() {
     }
     assert!(window.harness.query_by_label("Render region").is_none());
 }
+
+#[test]
+fn overlays_are_chosen_in_a_menu_that_stays_open_and_snapping_has_a_switch() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "400x300");
+    click(&mut window, "Choose overlays");
+    for entry in ["Grid", "Selection outline"] {
+        window.harness.get_by_label(entry).click();
+        window.settle();
+    }
+    let chosen = window.session().overlays;
+    assert!(chosen.grid && !chosen.outline && !chosen.wireframe);
+    window.harness.key_press(Key::Escape);
+    window.settle();
+    // What is chosen while all overlays are hidden is shown, and what is hidden stays so.
+    window.session().shows_overlays = false;
+    (window.harness).key_press_modifiers(Modifiers::ALT, Key::G);
+    window.settle();
+    assert!(window.session().shows_overlays && window.session().overlays.grid);
+    click(&mut window, "Snapping");
+    assert!(window.session().snaps);
+    // Beside the rays the picture is narrow: the bar has fewer buttons, and all of them lie in it.
+    window.harness.key_press(Key::I);
+    window.settle();
+    let picture = window.harness.get_by_label("Rendered picture").rect();
+    assert!(picture.contains_rect(button(&window, "Camera")));
+    assert!(window.harness.query_by_label("Choose overlays").is_none());
+}
