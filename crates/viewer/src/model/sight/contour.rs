@@ -6,6 +6,8 @@ use glam::{DVec2, IVec2, UVec2};
 const WEIGHTS: [f64; 5] = [1.0, 2.0, 3.0, 2.0, 1.0];
 /// How far a point may be from the line that replaces it, in pixels.
 const TOLERANCE: f64 = 0.12;
+/// Lines of so few points stay as they are.
+const SHORT: usize = 16;
 /// The ways along the sides of a pixel: right, down, left, up. An outline has its inside to the right.
 const WAYS: [IVec2; 4] = [IVec2::X, IVec2::Y, IVec2::NEG_X, IVec2::NEG_Y];
 
@@ -157,6 +159,9 @@ fn smooth(line: &[DVec2]) -> Vec<DVec2> {
 
 /// Leaves out points that lie nearly on the line of others (Ramer, Douglas and Peucker).
 fn simple(line: &[DVec2]) -> Vec<DVec2> {
+    if line.len() <= SHORT {
+        return line.to_vec();
+    }
     let last = line.len() - 1;
     let mut stays = vec![false; line.len()];
     (stays[0], stays[last]) = (true, true);
