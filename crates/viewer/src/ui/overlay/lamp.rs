@@ -1,9 +1,9 @@
 //! Handles of the selected lamp in the picture: its aim and its size.
 
 use crate::actions::lighting;
-use crate::model::handles::Snap;
 use crate::model::handles::lamp::{Lamp, LampGrip, LampPart, change_lamp};
 use crate::model::objects::{self, Id};
+use crate::model::snapping::Snap;
 use crate::model::tool::Tool;
 use crate::state::session::Session;
 use crate::ui::overlay::{ALL, HOT, SLACK, held};
