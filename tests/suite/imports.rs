@@ -73,7 +73,7 @@ const MODULES: &[(&str, &str, &[&str])] = &[
 /// Modules that the command line and the window may use: everything but each other.
 const ABOVE_APP: &[&str] = &[
     "app", "bvh", "bytes", "clock", "random", "scene", "image", "layout", "gpu", "import",
-    "export", "pack", "render", "output", "text",
+    "export", "pack", "render", "output", "text", "threads",
 ];
 
 /// Tiers that each tier of `shaders/` may import.

@@ -3,9 +3,8 @@
 use crate::actions::files::{NO_DIALOG, short};
 use crate::model::file_dialog::{self, Reply, Request};
 use crate::model::objects::Id;
-use crate::state::files::PictureRead;
 use crate::state::session::Session;
-use crate::state::texturing::{Stage, TexturePlace};
+use crate::state::texturing::{PictureRead, Stage, TexturePlace};
 use eframe::egui;
 use glimray_app::advice;
 use glimray_io::import::{self, PICTURE_ENDINGS};

@@ -1,6 +1,20 @@
 //! A material that is dragged onto an object.
 
+use crate::model::objects::Id;
 use glimray_scene::ObjectRef;
+
+/// The lines of the outline, or the material of a preview, that are being dragged.
+pub struct Dragged(pub Vec<Id>);
+
+impl Dragged {
+    /// The index of the material, if it is one.
+    pub fn material(&self) -> Option<usize> {
+        match self.0[..] {
+            [Id::Material(index)] => Some(index),
+            _ => None,
+        }
+    }
+}
 
 /// A material in the hand, and what it is over.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -8,22 +8,19 @@ use crate::model::watch::Watch;
 use crate::state::film::FilmDialog;
 use crate::state::jobs::{JobId, JobOutcome, Jobs};
 use crate::state::target::Target;
-use crate::state::texturing::Texturing;
+use crate::state::texturing::{PictureRead, Texturing};
 use crate::worker::still::Still;
 use eframe::egui::ColorImage;
 use glimray_app::inputs::Inputs;
 use glimray_io::import::{ImportError, Options};
 use glimray_io::output::Format;
+use glimray_scene::Scene;
 use glimray_scene::image::ScreenImage;
-use glimray_scene::{Picture, Scene};
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
 use std::time::SystemTime;
-
-/// An image, or why it cannot be read.
-pub type PictureRead = Result<(Arc<Picture>, Vec<String>), ImportError>;
 
 /// The state of files.
 #[derive(Default)]
@@ -170,7 +167,6 @@ impl Files {
             || self.to_watch.is_some()
             || self.environment.is_some()
             || self.model.is_some()
-            || self.shown_in_folder.is_some()
             || self.texturing.is_busy()
             || self.pending.is_posing()
     }

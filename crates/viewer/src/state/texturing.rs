@@ -2,11 +2,14 @@
 
 use crate::model::file_dialog::Reply;
 use crate::model::texture_slots::TextureSlot;
-use crate::state::files::PictureRead;
+use glimray_io::import::ImportError;
 use glimray_scene::Picture;
 use std::path::PathBuf;
-use std::sync::Weak;
 use std::sync::mpsc::Receiver;
+use std::sync::{Arc, Weak};
+
+/// An image, or why it cannot be read.
+pub type PictureRead = Result<(Arc<Picture>, Vec<String>), ImportError>;
 
 /// Where a picture goes: the index of a material, and one of its slots.
 pub type TexturePlace = (usize, &'static TextureSlot);

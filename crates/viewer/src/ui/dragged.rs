@@ -1,23 +1,10 @@
 //! Things that are dragged from a panel to another place.
 
 use crate::model::objects::Id;
-use crate::state::dropping::Dropping;
+use crate::state::dropping::{Dragged, Dropping};
 use crate::state::session::Session;
 use crate::ui::panels::icon;
 use eframe::egui::{self, Area, DragAndDrop, Order, Sense, vec2};
-
-/// The lines of the outline, or the material of a preview, that are being dragged.
-pub struct Dragged(pub Vec<Id>);
-
-impl Dragged {
-    /// The index of the material, if it is one.
-    pub fn material(&self) -> Option<usize> {
-        match self.0[..] {
-            [Id::Material(index)] => Some(index),
-            _ => None,
-        }
-    }
-}
 
 /// Notes over what a material is dragged, and shows the material beside the cursor. Called after all panels.
 pub fn show(ctx: &egui::Context, session: &mut Session) {

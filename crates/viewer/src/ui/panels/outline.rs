@@ -6,10 +6,10 @@ use crate::model::bindings::Action;
 use crate::model::objects;
 use crate::model::objects::Id;
 use crate::model::outline::{self, Entry};
+use crate::state::dropping::Dragged;
 use crate::state::files::Part;
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
-use crate::ui::dragged::Dragged;
 use crate::ui::panels::row::write_heading;
 use crate::ui::panels::{icon, parts};
 use eframe::egui::{

@@ -2,8 +2,8 @@
 
 use crate::actions::materials;
 use crate::model::viewport::Viewport;
+use crate::state::dropping::Dragged;
 use crate::state::session::Session;
-use crate::ui::dragged::Dragged;
 use eframe::egui;
 
 /// Passes a dragged material to the object under the cursor.

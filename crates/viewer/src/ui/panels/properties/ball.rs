@@ -1,7 +1,7 @@
 //! The preview of a material on a ball.
 
 use crate::model::objects::Id;
-use crate::ui::dragged::Dragged;
+use crate::state::dropping::Dragged;
 use crate::ui::panels::icon::named;
 use crate::ui::panels::properties::fields::Fields;
 use eframe::egui::{self, Color32, DragAndDrop, Pos2, Rect, Sense, vec2};
