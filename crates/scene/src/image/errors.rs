@@ -13,7 +13,7 @@ pub struct Errors {
     pub width: u32,
     /// In pixels.
     pub height: u32,
-    /// From 0, row by row from the top left; `None` where one of the images has no opaque pixel.
+    /// From 0, row by row from the top left; `None` where one of the images has no opaque pixel, or a value is not finite.
     pub errors: Vec<Option<f32>>,
 }
 
@@ -45,7 +45,7 @@ impl Errors {
         Self {
             width,
             height,
-            errors: pairs.map(|pair| pair.map(mean)).collect(),
+            errors: (pairs.map(|pair| pair.map(mean).filter(|error| error.is_finite()))).collect(),
         }
     }
 

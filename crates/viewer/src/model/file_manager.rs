@@ -53,7 +53,7 @@ pub fn commands(path: &Path) -> Vec<Line> {
     if cfg!(target_os = "macos") {
         vec![("open", vec!["-R".to_owned(), text])]
     } else if cfg!(windows) {
-        vec![("explorer", vec![format!("/select,{text}")])]
+        vec![("explorer", vec![format!("/select,\"{text}\"")])]
     } else {
         let method = [
             "--session",
@@ -92,8 +92,15 @@ fn address(path: &Path) -> String {
 /// None of them does: one line.
 fn first_of(commands: Vec<Line>, path: &Path) -> Result<(), String> {
     let succeeds = |(program, arguments): &Line| {
-        let quiet = Command::new(program)
-            .args(arguments)
+        let mut command = Command::new(program);
+        // Explorer reads the line by itself, with quotes round the path alone.
+        #[cfg(windows)]
+        for argument in arguments {
+            std::os::windows::process::CommandExt::raw_arg(&mut command, argument);
+        }
+        #[cfg(not(windows))]
+        command.args(arguments);
+        let quiet = command
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(Stdio::null())

@@ -202,18 +202,18 @@ fn thumbnail(picture: &ScreenImage) -> ScreenImage {
                     [at, at + 1].map(|at| u64::from(at) * u64::from(side) / u64::from(of));
                 from as usize..to as usize
             };
-            let mut sums = [0_u32; 4];
+            let mut sums = [0_u64; 4];
             for row in span(y, height, high) {
                 for column in span(x, width, wide) {
                     let pixel = picture.pixels.get(row * wide as usize + column);
                     for (sum, value) in sums.iter_mut().zip(pixel.into_iter().flatten()) {
-                        *sum += u32::from(*value);
+                        *sum += u64::from(*value);
                     }
                 }
             }
             // Of what is there: a picture in progress has pixels without a sample.
             let [r, g, b, opacity] = sums;
-            let level = |sum: u32| (sum * 255 / opacity.max(1)).min(255) as u8;
+            let level = |sum: u64| (sum * 255 / opacity.max(1)).min(255) as u8;
             pixels.push([level(r), level(g), level(b), u8::from(opacity > 0) * 255]);
         }
     }

@@ -359,6 +359,7 @@ impl Session {
             && self.refinement.is_none()
             && self.questions.is_empty()
             && !self.files.is_busy()
+            && self.files.shown_in_folder.is_none()
             && !self.files.jobs.is_busy()
             && !self.comparing.is_busy()
             && !self.is_moving()

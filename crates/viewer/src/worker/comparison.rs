@@ -161,7 +161,7 @@ impl Compared {
             return Ok(());
         }
         let started = Instant::now();
-        self.difference = match map.measure.is_of_linear_values() {
+        let found = match map.measure.is_of_linear_values() {
             true => self.linear_difference(map, [beside, main], raw)?,
             false => {
                 let beside = if raw {
@@ -172,6 +172,11 @@ impl Compared {
                 self.displayed_difference(map, &shown, beside)?
             }
         };
+        // The last one stays until both pictures have samples again.
+        if found.is_none() && changes && !is_other_map {
+            return Ok(());
+        }
+        self.difference = found;
         self.last = Some((Instant::now(), started.elapsed()));
         self.frames_shown += u64::from(self.difference.is_some());
         self.subject = Some(subject);

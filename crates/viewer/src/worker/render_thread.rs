@@ -453,7 +453,9 @@ impl RenderWorker {
         match outcome.map_err(Fault::from) {
             Err(Fault::Refused(_)) => {
                 self.unfit_ball = requests.ball.clone();
-                Ok(())
+                self.ball
+                    .set_request(None, false, None)
+                    .map_err(Fault::from)
             }
             other => other,
         }

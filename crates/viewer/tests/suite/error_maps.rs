@@ -172,3 +172,34 @@ fn false_colours_tell_stops_around_middle_grey_before_the_tone_curve() {
     window.harness.key_press_modifiers(Modifiers::SHIFT, Key::Y);
     assert_eq!(color(&mut window), before);
 }
+
+#[test]
+fn a_picture_in_false_colours_does_not_differ_from_its_snapshot() {
+    let (_folder, path) = edit::file();
+    let mut window = edit::open(&path, "64x48");
+    window.harness.key_press_modifiers(Modifiers::SHIFT, Key::K);
+    window.settle();
+    window.harness.key_press_modifiers(Modifiers::SHIFT, Key::Y);
+    window.settle();
+    assert!(window.session().view.false_color);
+    window.harness.key_press(Key::Y);
+    window.settle();
+    for measure in [Measure::Absolute, Measure::Flip] {
+        let shown = compare(&mut window, measure, 1.0);
+        assert_eq!((shown.rmse, shown.mean), (0.0, 0.0), "{measure:?}");
+    }
+}
+
+#[test]
+fn values_that_are_not_finite_are_left_out_of_relative_errors() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = plain(folder.path(), "[0.5, 0.5, 0.5]");
+    let path = folder.path().join("reference.exr");
+    let mut radiance = ::image::Rgb32FImage::from_pixel(64, 48, ::image::Rgb([0.25; 3]));
+    radiance.put_pixel(3, 4, ::image::Rgb([f32::INFINITY; 3]));
+    radiance.save(&path).expect("an EXR");
+    comparing::open_reference(&mut window.session(), path);
+    window.settle();
+    let shown = compare(&mut window, Measure::Relative, 1.0);
+    assert!((shown.mean - 0.25 / 0.26).abs() < 1e-5, "{}", shown.mean);
+}

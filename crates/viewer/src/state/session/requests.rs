@@ -25,9 +25,12 @@ impl Session {
         };
         if self.room.taken.0 > 0 && self.room.taken.1 > 0 {
             let main = self.render_request(self.view.settings.integrator);
+            let comparison = self.view.comparison;
+            let shows_errors = comparison.is_some_and(|it| it.error_map().is_some());
             requests.pictures[PictureSlot::Main as usize] = main.map(|request| RenderRequest {
                 layer: self.view.layer,
-                false_color: self.view.false_color,
+                // An error map compares both pictures as they are displayed.
+                false_color: self.view.false_color && !shows_errors,
                 ..request
             });
             if let Some(comparison) = self.view.comparison.filter(|_| self.scene().is_some()) {
