@@ -7,6 +7,7 @@ use crate::actions::{
 };
 use crate::model::bindings::Action;
 use crate::model::camera::{CameraController, CameraHistory, Flight, Side};
+use crate::model::objects::Id;
 use crate::model::preferences::Theme;
 use crate::model::tool::Tool;
 use crate::model::view_settings::{ErrorMap, Measure, Sharing};
@@ -17,6 +18,7 @@ use crate::state::layout::{Layout, Panel};
 use crate::state::session::Session;
 use eframe::egui::{self, Event, Popup, ViewportCommand};
 use glam::DVec3;
+use glimray_scene::ObjectRef;
 use std::f64::consts::PI;
 
 /// Angle of orbit and roll commands, in radians.
@@ -313,7 +315,10 @@ fn frame(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
     let aspect = session.aspect();
     if let Some(bounds) = bounds {
         camera(session, |it| it.frame(bounds, aspect));
-        see_past_lamps(session);
+        let is_lamp = |id: &Id| matches!(id, Id::Object(ObjectRef::Light(_)));
+        if !session.selected().iter().any(is_lamp) {
+            see_past_lamps(session);
+        }
     }
 }
 
@@ -342,13 +347,12 @@ fn leave(session: &mut Session) {
     if dialogs::close_uppermost(session) {
         return;
     }
-    let editing = &session.editing;
-    let is_held = editing.grip.is_some() || editing.lamp.is_some() || editing.section.is_some();
-    if is_held || lighting::is_turning(session) {
+    if session.editing.is_held() || lighting::is_turning(session) {
         modal::cancel(session);
         return;
     }
-    if session.tool_state.frame.take().is_some() {
+    let frame = session.tool_state.frame.take().is_some();
+    if session.tool_state.boxed.take().is_some() || frame {
         return;
     }
     if session.tool_state.focuses.take().is_some() {

@@ -44,7 +44,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
         return;
     };
     let editing = &session.editing;
-    let is_held = editing.grip.is_some() || editing.modal.is_some();
+    let is_held = editing.is_held() || editing.modal.is_some();
     if !ctx.input(|input| input.pointer.any_down()) && !is_held {
         document.release();
     }
@@ -195,6 +195,10 @@ impl Session {
         let Some(scene) = self.scene() else {
             return String::new();
         };
+        // A drag, an answer or a menu may name something that an undo or a reload has taken away.
+        if !objects::is_there(scene, id) {
+            return "nothing".to_owned();
+        }
         match self.editing.listing.label(scene, id) {
             Some(label) => label.to_owned(),
             None => outline::label(scene, id),

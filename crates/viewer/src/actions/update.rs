@@ -1,6 +1,6 @@
 //! Per-frame updates.
 
-use super::{adding, comparing, editing, files, inspector, lighting, texturing};
+use super::{adding, comparing, editing, files, inspector, lighting, texturing, walk};
 use crate::model::camera::CameraController;
 use crate::state::pixel_values::PixelValues;
 use crate::state::session::Session;
@@ -33,7 +33,11 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     // A frame that is drawn again takes no time.
     let seconds = if now > session.now { seconds } else { 0.0 };
     session.now = now;
+    let walked = session.walk.is_some();
     take_scene(session);
+    if walked && session.walk.is_none() {
+        walk::free_pointer(ctx);
+    }
     files::update(session, ctx);
     adding::update(session);
     texturing::update(session);

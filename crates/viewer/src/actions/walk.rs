@@ -40,7 +40,7 @@ pub fn end(session: &mut Session, ctx: &egui::Context, keeps: bool) {
     let Some(walk) = session.walk.take() else {
         return;
     };
-    ctx.send_viewport_cmd(ViewportCommand::CursorGrab(CursorGrab::None));
+    free_pointer(ctx);
     if let Some(controller) = &mut session.controller {
         controller.fly(Flight::default());
         match keeps {
@@ -49,6 +49,11 @@ pub fn end(session: &mut Session, ctx: &egui::Context, keeps: bool) {
         }
     }
     session.moved();
+}
+
+/// Lets the pointer leave the window.
+pub(super) fn free_pointer(ctx: &egui::Context) {
+    ctx.send_viewport_cmd(ViewportCommand::CursorGrab(CursorGrab::None));
 }
 
 /// Handles the input of a frame. Returns whether there is a walk, which takes all keys.

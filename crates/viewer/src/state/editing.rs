@@ -66,6 +66,13 @@ pub struct Editing {
 /// Minimum and maximum corner of a box; `None` without bounds.
 pub type Bounds = Option<(DVec3, DVec3)>;
 
+impl Editing {
+    /// Whether a handle is being dragged.
+    pub fn is_held(&self) -> bool {
+        self.grip.is_some() || self.lamp.is_some() || self.section.is_some()
+    }
+}
+
 impl Default for Editing {
     fn default() -> Self {
         Self {

@@ -49,6 +49,7 @@ pub fn overlay(
         return false;
     }
     if !session.shows_overlays && session.editing.modal.is_none() {
+        let_go(session);
         return false;
     }
     let eye = Eye {

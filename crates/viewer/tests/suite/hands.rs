@@ -143,3 +143,30 @@ fn a_picture_that_is_not_to_be_seen_is_not_photographed() {
     let told = "The picture is hidden. Show its panel first";
     assert!(session.messages.all().iter().any(|n| n.text == told));
 }
+
+#[test]
+fn a_material_may_hang_over_an_object_that_an_undo_takes_away() {
+    use crate::edit::{file, on_screen, open, perform, scene};
+    let (_folder, path) = file();
+    let mut window = open(&path, "400x300");
+    window
+        .session()
+        .edit("empty", |scene| scene.shapes.truncate(1));
+    perform(&mut window, Action::Undo);
+    // The second ball comes back and is gone again below a material.
+    let blue = on_screen(&window, glam::dvec3(1.0, 0.0, 0.0));
+    let line = window.harness.get_by_role_and_label(Role::Button, "red");
+    let from = line.rect().center();
+    window.harness.hover_at(from);
+    window.harness.step();
+    button(&mut window, from, PointerButton::Primary, true);
+    for share in [0.3, 0.7, 1.0, 1.0] {
+        window.harness.hover_at(from + (blue - from) * share);
+        window.harness.step();
+    }
+    window.settle();
+    perform(&mut window, Action::Redo);
+    assert_eq!(scene(&window).shapes.len(), 1);
+    button(&mut window, blue, PointerButton::Primary, false);
+    window.settle();
+}

@@ -488,3 +488,48 @@ fn a_lamp_before_the_scene_does_not_hide_it_from_views_along_axes() {
         assert_eq!(window.camera().clip, glimray::scene::Camera::UNCLIPPED);
     }
 }
+
+#[test]
+fn a_lamp_whose_handle_is_let_go_in_motion_is_changed_once() {
+    let sphere = "[[lights]]\nsphere = { center = [0, 2, 0], radius = 0.5, color = [9, 9, 9] }\n";
+    let (_folder, _path, mut window) = open("ambient = [0.1, 0.1, 0.1]", sphere);
+    select(&mut window);
+    let center = dvec3(0.0, 2.0, 0.0);
+    let mut sides = [DVec3::X, DVec3::NEG_X].into_iter();
+    let is_there = |side: &DVec3| {
+        let at = on_screen(&window, center + 0.5 * *side);
+        grabs(&mut window, at)
+    };
+    let side = sides.find(is_there).expect("a handle");
+    let from = on_screen(&window, center + 0.5 * side);
+    let to = on_screen(&window, center + 1.25 * side);
+    let none = Modifiers::NONE;
+    pull(
+        &mut window,
+        from,
+        0.5 * (to - from),
+        PointerButton::Primary,
+        none,
+    );
+    // The pointer moves on in the frame in which the button is let go.
+    window.harness.event(egui::Event::PointerMoved(to));
+    let_go(&mut window, to, PointerButton::Primary);
+    let LightKind::Sphere { radius, .. } = scene(&window).lights[0].kind else {
+        panic!("not a sphere");
+    };
+    assert!((radius - 1.25).abs() < 0.01, "{radius}");
+    assert_eq!(undo_count(&window), 1);
+}
+
+#[test]
+fn a_lamp_that_is_framed_is_not_cut_off() {
+    let lamp = "[[lights]]\ndisc = { center = [0, 0, 4], normal = [0, 0, -1], radius = 1, color = [9, 9, 9] }\n";
+    let (_folder, _path, mut window) = open("background = [0, 0, 0]", lamp);
+    window.session().select(vec![LAMP]);
+    window.settle();
+    window.harness.key_press(Key::F);
+    window.settle();
+    let camera = window.camera();
+    let distance = camera.look_from.distance(dvec3(0.0, 0.0, 4.0));
+    assert!(camera.clip.0 < distance, "{} of {distance}", camera.clip.0);
+}

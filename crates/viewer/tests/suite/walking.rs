@@ -210,3 +210,28 @@ fn a_bookmark_has_a_picture_of_its_view_that_outlives_the_window_and_a_number() 
     assert!(forward(&window).distance(DVec3::NEG_Z) < 1e-9);
     assert_ne!(window.camera(), start);
 }
+
+#[test]
+fn a_reload_during_a_walk_frees_the_pointer() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "160x120");
+    begin(&mut window);
+    let text = std::fs::read_to_string(&path).expect("a scene");
+    std::fs::write(&path, text.replace("ambient = [0.2", "ambient = [0.3")).expect("a file");
+    window.session().clicked.push(Action::Reload);
+    let frees = |command: &egui::ViewportCommand| {
+        *command == egui::ViewportCommand::CursorGrab(egui::viewport::CursorGrab::None)
+    };
+    let mut is_free = false;
+    for _ in 0..400 {
+        window.harness.step();
+        let output = &window.harness.output().viewport_output;
+        is_free |= output.values().any(|it| it.commands.iter().any(frees));
+        if window.session().walk.is_none() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    assert!(window.session().walk.is_none(), "it is not reloaded");
+    assert!(is_free, "the pointer is still held");
+}

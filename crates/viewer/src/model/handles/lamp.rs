@@ -3,6 +3,7 @@
 
 use crate::model::handles::{EDGE_ON, Eye, FINE, nearest_on_line, on_plane};
 use crate::model::objects::{EditError, Freedom, Id, Scaling, of_light, place, set_place};
+use crate::model::snapping::Snap;
 use glam::{DAffine3, DQuat, DVec2, DVec3};
 use glimray_scene::{Light, LightKind, ObjectRef, Scene};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -11,7 +12,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 const CIRCLE: usize = 48;
 /// Least angle of the outer cone, in radians: scene files refuse less.
 const LEAST_CONE: f64 = 0.1 * std::f64::consts::PI / 180.0;
-/// Snapping step of angles in radians, and of lengths as a fraction of their power of ten.
+/// The fine step of angles in radians, and the whole step of lengths as a fraction of their power of ten.
 const SNAP_ANGLE: f64 = 5.0 * std::f64::consts::PI / 180.0;
 const SNAP_LENGTH: f64 = 0.1;
 
@@ -255,7 +256,7 @@ impl LampGrip {
     }
 
     /// The change and its description; `None` where the pointer has no solution. `snap` rounds to whole steps.
-    pub fn dragged(&self, eye: Eye, snap: bool) -> Option<(LampChange, String)> {
+    pub fn dragged(&self, eye: Eye, snap: Snap) -> Option<(LampChange, String)> {
         let lamp = &self.start;
         let title = self.part.title();
         match (self.part, lamp.kind) {
@@ -298,10 +299,7 @@ impl LampGrip {
                 };
                 let turned = self.cone_angle(eye, self.to, direction, side, start)?
                     - self.cone_angle(eye, self.from, direction, side, start)?;
-                let mut angle = start + turned;
-                if snap {
-                    angle = (angle / SNAP_ANGLE).round() * SNAP_ANGLE;
-                }
+                let angle = snap.round(start + turned, 3.0 * SNAP_ANGLE, SNAP_ANGLE);
                 let angle = angle.clamp(range[0], range[1]);
                 let text = format!("{title} {:.1}°", angle.to_degrees());
                 Some((LampChange::Angle(angle), text))
@@ -321,15 +319,13 @@ impl LampGrip {
     }
 
     /// The factor on the length of `arm`, which starts in the middle, and `shown` times its new length.
-    fn length(&self, eye: Eye, arm: DVec3, shown: f64, snap: bool) -> Option<(LampChange, String)> {
+    fn length(&self, eye: Eye, arm: DVec3, shown: f64, snap: Snap) -> Option<(LampChange, String)> {
         let length = arm.length();
         let axis = arm.try_normalize()?;
         let at = |position| nearest_on_line(self.ray(eye, position), self.start.at, axis);
-        let mut now = shown * (length + at(self.to)? - at(self.from)?);
-        if snap {
-            let step = SNAP_LENGTH * 10_f64.powf((shown * length).log10().floor());
-            now = (now / step).round() * step;
-        }
+        let now = shown * (length + at(self.to)? - at(self.from)?);
+        let step = SNAP_LENGTH * 10_f64.powf((shown * length).log10().floor());
+        let now = snap.round(now, step, 0.1 * step);
         // A lamp without size has no light.
         let now = now.max(1e-3 * shown * length);
         let text = format!("{} {now:.3}", self.part.title());

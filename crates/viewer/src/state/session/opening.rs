@@ -160,6 +160,8 @@ impl Session {
         self.select(Vec::new());
         let editing = &mut self.editing;
         (editing.renaming, editing.grip, editing.modal) = (None, None, None);
+        (editing.lamp, editing.section, editing.aimed) = (None, None, None);
+        editing.dropping = None;
         editing.lit = None;
         if let Some(warning) = editing.darkness.take() {
             self.messages.dismiss(&sentence(warning));

@@ -53,7 +53,6 @@ pub fn handles(
     let (pointer, pressed) =
         ctx.input(|input| (input.pointer.latest_pos(), input.pointer.press_origin()));
     let (is_fine, snap) = held(session, ctx);
-    let snaps = snap != Snap::Off;
     if response.drag_started_by(egui::PointerButton::Primary)
         && let Some(pressed) = pressed
         && let Some(part) = part_at(pressed)
@@ -62,7 +61,8 @@ pub fn handles(
         let grip = LampGrip::new(index, part, lamp.clone(), from);
         session.editing.lamp = Some((grip, pressed));
     }
-    let Some((mut grip, last)) = session.editing.lamp.take() else {
+    let held = session.editing.lamp.take();
+    let Some((mut grip, last)) = held.filter(|(grip, _)| grip.light == index) else {
         let hot = pointer.filter(|_| response.hovered()).and_then(part_at);
         dots(view, &lamp.handles(view.eye, free), hot);
         if let (Some(part), Some(pointer)) = (hot, pointer) {
@@ -73,7 +73,7 @@ pub fn handles(
     };
     let now = pointer.unwrap_or(last);
     grip.move_pointer(view.viewport.length(now - last), is_fine);
-    if let Some((change, label)) = grip.dragged(view.eye, snaps) {
+    if let Some((change, label)) = grip.dragged(view.eye, snap) {
         if now != last {
             let verb = match grip.part {
                 LampPart::Aim => "aim",
@@ -100,7 +100,7 @@ pub fn handles(
             document.release();
         }
         let is_finite = !matches!(lamp.kind, LightKind::Directional { .. });
-        if grip.part == LampPart::Aim && is_finite && !snaps {
+        if grip.part == LampPart::Aim && is_finite && snap == Snap::Off {
             lighting::aim_at_surface(session, index, view.viewport.pixel(now));
         }
     }

@@ -121,7 +121,8 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
 
 /// Tools that pick a point have a cross as their cursor.
 fn cursor(session: &Session, response: &egui::Response) {
-    let is_taken = session.editing.grip.is_some() || session.drag.is_some();
+    let is_framed = session.tool_state.frame.is_some();
+    let is_taken = session.editing.is_held() || session.drag.is_some() || is_framed;
     if response.hovered() && !is_taken && matches!(session.tool, Tool::Inspect | Tool::Measure) {
         response.ctx.set_cursor_icon(egui::CursorIcon::Crosshair);
     }
