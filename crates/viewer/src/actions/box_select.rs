@@ -8,9 +8,11 @@ use crate::model::objects::{self, Id};
 use crate::model::tool::{BoxDrag, BoxMode, Tool};
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;
+use crate::state::sight::Subject;
 use eframe::egui::{self, Modifiers, PointerButton};
 use glam::{DVec2, DVec3};
 use glimray_scene::{Geometry, LightKind, ObjectRef, Scene};
+use std::collections::BTreeSet;
 
 /// Handles the mouse for a rectangle. Returns whether it is consumed.
 pub fn drag(session: &mut Session, response: &egui::Response, viewport: Viewport) -> bool {
@@ -30,6 +32,7 @@ pub fn drag(session: &mut Session, response: &egui::Response, viewport: Viewport
             session.tool_state.frame = None;
             let ends = [drag.from, drag.to].map(|point| viewport.position(point));
             session.tool_state.boxed = Some((ends, drag.mode));
+            session.sight.boxed = sight::subject(session);
             go_on(session);
             // The answer may come in a later frame.
             response.ctx.request_repaint();
@@ -64,13 +67,26 @@ fn mode(modifiers: Modifiers) -> BoxMode {
     }
 }
 
-/// Selects what is in the rectangle that was drawn last, once it is known what the pixels show.
+/// Selects what is in the rectangle that was drawn last, once it is known what the pixels show. Another view drops it.
 pub fn go_on(session: &mut Session) {
+    if session.tool_state.boxed.is_none() {
+        session.sight.boxed = None;
+        return;
+    }
+    let now = sight::subject(session);
+    let is_same = |drawn: &Subject| now.as_ref().is_some_and(|now| drawn.looks_like(now));
+    if !session.sight.boxed.as_ref().is_some_and(is_same) {
+        session.tool_state.boxed = None;
+        session.sight.boxed = None;
+        return (session.messages)
+            .notify("The view has changed, so the box selects nothing. Draw it again");
+    }
     let (Some((ends, mode)), Some(seen)) = (session.tool_state.boxed, sight::current(session))
     else {
         return;
     };
     session.tool_state.boxed = None;
+    session.sight.boxed = None;
     let Some(scene) = session.scene().cloned() else {
         return;
     };
@@ -89,7 +105,7 @@ pub fn go_on(session: &mut Session) {
     choose(session, ids, mode);
 }
 
-/// The lamps without a surface, and the cameras, whose places are in a rectangle of the picture.
+/// The lamps that are not seen as a surface, and the cameras, whose places are in a rectangle of the picture.
 fn points_in(session: &Session, scene: &Scene, min: DVec2, max: DVec2) -> Vec<Id> {
     let (Some(camera), Some(viewport)) = (session.camera(), session.viewport) else {
         return Vec::new();
@@ -102,10 +118,11 @@ fn points_in(session: &Session, scene: &Scene, min: DVec2, max: DVec2) -> Vec<Id
     let lights = scene.frame(time).lights.into_iter().enumerate();
     let lights = lights.filter_map(|(index, light)| {
         let id = Id::Object(ObjectRef::Light(index));
-        let place = match light.kind {
-            LightKind::Point { position } | LightKind::Spot { position, .. } => position,
-            _ => return None,
-        };
+        let is_surface = light.kind.radiance().is_some() && light.visible;
+        if is_surface || matches!(light.kind, LightKind::Directional { .. }) {
+            return None;
+        }
+        let place = objects::of_light(&light.kind).translation;
         (is_in(place) && objects::is_visible(scene, id)).then_some(id)
     });
     let cameras = scene.cameras_at(time).into_iter().enumerate();
@@ -120,10 +137,13 @@ fn choose(session: &mut Session, found: Vec<Id>, mode: BoxMode) {
     match mode {
         BoxMode::Only => selected = found,
         BoxMode::Add => {
-            let news = found.into_iter().filter(|id| !session.is_selected(*id));
-            selected.extend(news);
+            let known: BTreeSet<_> = selected.iter().copied().collect();
+            selected.extend(found.into_iter().filter(|id| !known.contains(id)));
         }
-        BoxMode::Remove => selected.retain(|id| !found.contains(id)),
+        BoxMode::Remove => {
+            let found: BTreeSet<_> = found.into_iter().collect();
+            selected.retain(|id| !found.contains(id));
+        }
     }
     let told = match selected.as_slice() {
         [] => "Nothing is selected".to_owned(),

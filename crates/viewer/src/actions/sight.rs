@@ -10,6 +10,7 @@ use crate::state::session::Session;
 use crate::state::sight::{Seen, Silhouettes, Subject};
 use crate::worker::progressive_image::{FrameRenderer, Progress};
 use glam::DVec2;
+use glimray_render::gpu::GpuError;
 use glimray_render::{QueryRay, RayQuery, RenderError};
 use glimray_scene::{Camera, ObjectRef, Scene};
 use std::collections::BTreeSet;
@@ -20,7 +21,7 @@ const MOST: u64 = 1 << 21;
 const MOST_ON_CPU: u64 = 1 << 20;
 
 /// The picture as it is now; `None` before there is one.
-fn subject(session: &Session) -> Option<Subject> {
+pub(super) fn subject(session: &Session) -> Option<Subject> {
     let overlays = &session.overlays;
     let is_shown = session.shows_overlays;
     Some(Subject {
@@ -63,7 +64,12 @@ pub fn update(session: &mut Session, progress: &Progress) {
     }
     session.sight.asked = Some(subject.clone());
     let cache = session.sight.cache.clone();
-    session.ask(move |frame| Answer::Seen(look(frame, subject, &cache)));
+    session.ask(move |frame| match look(frame, subject, &cache) {
+        Ok(seen) => Answer::Seen(seen),
+        // The picture itself reports a lost device. After all failures this picture is not asked about again.
+        Err(RenderError::Gpu(GpuError::Lost)) => Answer::Nothing,
+        Err(error) => Answer::Failed(format!("cannot draw outlines, edges and the grid: {error}")),
+    });
 }
 
 /// Takes an answer; `None` if the picture was another one by then.
@@ -72,13 +78,15 @@ pub fn take(session: &mut Session, seen: Option<Box<Seen>>) {
     if let Some(seen) = seen {
         session.sight.latest = Some(Arc::from(seen));
         session.sight.silhouettes = None;
+        session.sight.snapped.take();
     }
 }
 
 /// What the pixels show, if that is known of the picture as it is.
 pub fn current(session: &Session) -> Option<Arc<Seen>> {
     let seen = session.sight.latest.as_ref()?;
-    let is_held = session.editing.grip.is_some() || session.editing.section.is_some();
+    let editing = &session.editing;
+    let is_held = editing.grip.is_some() || editing.lamp.is_some() || editing.section.is_some();
     let is_current = !is_held && seen.subject.looks_like(&subject(session)?);
     is_current.then(|| seen.clone())
 }
@@ -87,16 +95,15 @@ fn look(
     frame: &mut FrameRenderer,
     subject: Subject,
     cache: &edges::EdgeCache,
-) -> Option<Box<Seen>> {
+) -> Result<Option<Box<Seen>>, RenderError> {
     let request = frame.request;
     let is_same = Arc::ptr_eq(&request.scene, &subject.scene)
         && request.settings.size == subject.size
         && (request.camera.as_ref()).is_none_or(|camera| *camera == subject.camera);
     if !is_same {
-        return None;
+        return Ok(None);
     }
-    // A device that fails is reported where the picture itself fails.
-    let sight = sight(frame, &subject).ok()?;
+    let sight = sight(frame, &subject)?;
     let edges = edges::seen(
         &subject.scene,
         &subject.camera,
@@ -105,11 +112,11 @@ fn look(
         subject.edges,
         cache,
     );
-    Some(Box::new(Seen {
+    Ok(Some(Box::new(Seen {
         subject,
         sight,
         edges,
-    }))
+    })))
 }
 
 fn sight(frame: &FrameRenderer, subject: &Subject) -> Result<Sight, RenderError> {
@@ -176,15 +183,24 @@ pub fn silhouettes(session: &mut Session, selected: &[Id]) -> Option<Arc<Silhoue
 
 /// The objects of a selection, and those below its nodes.
 fn members(scene: &Scene, ids: &[Id]) -> BTreeSet<ObjectRef> {
-    let own = ids.iter().filter_map(|id| match id {
-        Id::Object(object) => Some(*object),
-        _ => None,
-    });
-    let mut members: BTreeSet<_> = own.collect();
+    let mut members = BTreeSet::new();
+    let mut nodes = BTreeSet::new();
     for id in ids {
-        if let Id::Node(node) = id {
-            members.extend(objects::carried_by(scene, *node));
+        match id {
+            Id::Object(object) => members.extend([*object]),
+            Id::Node(node) => nodes.extend([*node]),
+            Id::Camera(_) | Id::Material(_) => {}
         }
+    }
+    if !nodes.is_empty() {
+        let instances = (0..scene.instances.len()).map(ObjectRef::Instance);
+        let shapes = (0..scene.shapes.len()).map(ObjectRef::Shape);
+        let lights = (0..scene.lights.len()).map(ObjectRef::Light);
+        members.extend(instances.chain(shapes).chain(lights).filter(|object| {
+            let carrier = objects::carrier(scene, Id::Object(*object));
+            let mut above = std::iter::successors(carrier, |node| scene.nodes[*node].parent);
+            above.any(|node| nodes.contains(&node))
+        }));
     }
     members
 }

@@ -6,10 +6,10 @@ mod shape;
 pub use mesh::MeshEdges;
 
 use crate::model::camera::{distance_along, project_line};
-use crate::model::sight::Sight;
+use crate::model::sight::{Limits, Sight};
 use glam::{DAffine3, DVec2, DVec3};
-use glimray_scene::{Camera, Frame, Mesh, ObjectRef, Scene, threads};
-use std::collections::BTreeMap;
+use glimray_scene::{Camera, Frame, Instance, Mesh, ObjectRef, Scene, threads};
+use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// The most edges that are looked at in a picture.
@@ -30,29 +30,41 @@ pub struct SeenEdges {
     pub is_cut: bool,
 }
 
-/// The edges of meshes that were looked at before.
+/// The edges of meshes that were looked at before, by the address of the mesh.
 #[derive(Clone, Default)]
-pub struct EdgeCache(Arc<Mutex<Vec<Known>>>);
+pub struct EdgeCache(Arc<Mutex<HashMap<usize, Known>>>);
 
 type Known = (Weak<Mesh>, Arc<MeshEdges>);
 
 impl EdgeCache {
+    /// Drops the edges of meshes that are gone.
+    fn tidy(&self) {
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        known.retain(|_, (mesh, _)| mesh.strong_count() > 0);
+    }
+
     fn of(&self, mesh: &Arc<Mesh>) -> Arc<MeshEdges> {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        known.retain(|(mesh, _)| mesh.strong_count() > 0);
-        if let Some((_, edges)) = known.iter().find(|it| it.0.as_ptr() == Arc::as_ptr(mesh)) {
-            return edges.clone();
-        }
-        let edges = Arc::new(MeshEdges::of(mesh));
-        known.push((Arc::downgrade(mesh), edges.clone()));
-        edges
+        // A weak reference keeps the address, so that no other mesh gets it.
+        let (_, edges) = (known.entry(Arc::as_ptr(mesh) as usize))
+            .or_insert_with(|| (Arc::downgrade(mesh), Arc::new(MeshEdges::of(mesh))));
+        edges.clone()
     }
 }
 
-/// A view of what an object shows: where its points are and which of them are joined.
+/// A view of what a shape shows: where its points are and which of them are joined.
 struct Part {
     points: Vec<DVec3>,
     edges: Vec<[u32; 2]>,
+}
+
+/// The picture in which edges are looked for.
+struct Picture<'a> {
+    camera: &'a Camera,
+    limits: Limits,
+    sight: &'a Sight,
+    /// In pixels.
+    size: DVec2,
 }
 
 /// The edges that a picture of `size` pixels shows: all of them, or with the second of `wanted` the features only.
@@ -68,12 +80,18 @@ pub fn seen(
     if wanted == (false, false) {
         return seen;
     }
+    let picture = Picture {
+        camera,
+        limits: Limits::of(scene, camera),
+        sight,
+        size: DVec2::new(size.0.into(), size.1.into()),
+    };
     let frame = scene.frame(time);
-    let mut parts = Vec::new();
     let mut room = MOST_EDGES;
-    let mut posed = BTreeMap::new();
+    let mut known = BTreeMap::new();
+    cache.tidy();
     for object in sight.objects() {
-        let part = match object {
+        match object {
             ObjectRef::Instance(index) => {
                 let instance = &scene.instances[index];
                 let mesh = &scene.meshes[instance.mesh];
@@ -87,29 +105,29 @@ pub fn seen(
                     seen.is_cut = true;
                     continue;
                 }
-                let own = (posed.entry(instance.mesh))
-                    .or_insert_with(|| Arc::new(positions(scene, &frame, instance.mesh)));
-                let world_from_node = (scene.node_of(instance))
-                    .map_or(DAffine3::IDENTITY, |node| frame.nodes[node].world_from_node);
-                let place = world_from_node * instance.placement;
-                Part {
-                    points: own.iter().map(|p| place.transform_point3(*p)).collect(),
-                    edges: edges.to_vec(),
+                if edges.is_empty() {
+                    continue;
                 }
+                room -= edges.len();
+                let moved: &Option<_> = (known.entry(instance.mesh))
+                    .or_insert_with(|| moved(scene, &frame, instance.mesh));
+                let place = world_from_mesh(scene, &frame, instance);
+                let lines = visible(edges, &picture, |index| {
+                    let still = || mesh.positions[index].as_dvec3();
+                    let own = moved.as_ref().map_or_else(still, |moved| moved[index]);
+                    place.transform_point3(own)
+                });
+                seen.lines.extend(lines);
             }
             ObjectRef::Shape(index) => {
-                let place = (scene.shapes[index].node)
-                    .map_or(DAffine3::IDENTITY, |node| frame.nodes[node].world_from_node);
-                shape::part(&scene.shapes[index].geometry, place, wanted.0)
+                let shape = &scene.shapes[index];
+                let part = shape::part(&shape.geometry, world_from(&frame, shape.node), wanted.0);
+                room -= part.edges.len().min(room);
+                let lines = visible(&part.edges, &picture, |index| part.points[index]);
+                seen.lines.extend(lines);
             }
-            ObjectRef::Light(_) => continue,
-        };
-        room -= part.edges.len().min(room);
-        parts.push(part);
-    }
-    let size = DVec2::new(size.0.into(), size.1.into());
-    for part in &parts {
-        seen.lines.extend(visible(part, camera, sight, size));
+            ObjectRef::Light(_) => {}
+        }
     }
     if seen.lines.len() > MOST_LINES {
         seen.is_cut = true;
@@ -121,31 +139,36 @@ pub fn seen(
     seen
 }
 
-/// The vertices of a mesh in its own space, deformed as the frame asks.
-fn positions(scene: &Scene, frame: &Frame, mesh: usize) -> Vec<DVec3> {
-    let still = &scene.meshes[mesh];
-    let moved = scene.deformations.iter().zip(&frame.weights);
-    let moved = moved.into_iter().find(|(it, _)| it.mesh == mesh);
-    match moved {
-        Some((deformation, weights)) => {
-            let pose = deformation.pose(&frame.nodes, weights);
-            let posed = deformation.posed(still, &pose);
-            (0..posed.len())
-                .map(|vertex| posed.position(vertex))
-                .collect()
-        }
-        None => still.positions.iter().map(|p| p.as_dvec3()).collect(),
-    }
+/// The vertices of a mesh in its own space, deformed as the frame asks; `None` where nothing deforms it.
+pub fn moved(scene: &Scene, frame: &Frame, mesh: usize) -> Option<Vec<DVec3>> {
+    let known = (scene.deformations).binary_search_by_key(&mesh, |it| it.mesh);
+    let index = known.ok()?;
+    let deformation = &scene.deformations[index];
+    let pose = deformation.pose(&frame.nodes, &frame.weights[index]);
+    let posed = deformation.posed(&scene.meshes[mesh], &pose);
+    Some((0..posed.len()).map(|it| posed.position(it)).collect())
 }
 
-fn visible(part: &Part, camera: &Camera, sight: &Sight, size: DVec2) -> Vec<[DVec2; 2]> {
-    let chunk = threads::chunk_len(part.edges.len());
-    let chunks: Vec<_> = part.edges.chunks(chunk.max(1)).collect();
+/// Where the frame places a mesh. Its vertices are those of [`moved`], if there are any.
+pub fn world_from_mesh(scene: &Scene, frame: &Frame, instance: &Instance) -> DAffine3 {
+    world_from(frame, scene.node_of(instance)) * instance.placement
+}
+
+fn world_from(frame: &Frame, node: Option<usize>) -> DAffine3 {
+    node.map_or(DAffine3::IDENTITY, |node| frame.nodes[node].world_from_node)
+}
+
+fn visible(
+    edges: &[[u32; 2]],
+    picture: &Picture,
+    point: impl Fn(usize) -> DVec3 + Sync,
+) -> Vec<[DVec2; 2]> {
+    let chunks: Vec<_> = edges.chunks(threads::chunk_len(edges.len())).collect();
     let found = threads::map(chunks, |edges: &[[u32; 2]]| {
         let mut lines = Vec::new();
         for ends in edges {
-            let [a, b] = ends.map(|end| part.points[end as usize]);
-            visible_runs(camera, (a, b), sight, size, &mut lines);
+            let [a, b] = ends.map(|end| point(end as usize));
+            visible_runs(picture, (a, b), &mut lines);
         }
         lines
     });
@@ -153,13 +176,16 @@ fn visible(part: &Part, camera: &Camera, sight: &Sight, size: DVec2) -> Vec<[DVe
 }
 
 /// The parts of a line in the world that are not hidden.
-fn visible_runs(
-    camera: &Camera,
-    (from, to): (DVec3, DVec3),
-    sight: &Sight,
-    size: DVec2,
-    lines: &mut Vec<[DVec2; 2]>,
-) {
+fn visible_runs(picture: &Picture, ends: (DVec3, DVec3), lines: &mut Vec<[DVec2; 2]>) {
+    let Picture {
+        camera,
+        sight,
+        size,
+        ..
+    } = *picture;
+    let Some((from, to)) = picture.limits.clip(ends) else {
+        return;
+    };
     let near = 1e-4 * camera.look_from.distance(camera.look_at);
     let Some((a, b)) = project_line(camera, (from, to), near, (size, 0.0)) else {
         return;

@@ -2,8 +2,10 @@
 //! silhouettes of objects run.
 
 mod contour;
+mod limits;
 
 pub use contour::contours;
+pub use limits::Limits;
 
 use glam::{DVec2, UVec2};
 use glimray_scene::ObjectRef;
@@ -96,7 +98,7 @@ impl Sight {
 
     /// Whether a point that is projected to `position` is not hidden: `distance` is that from where the ray through it begins.
     /// A point on an edge belongs to the surface behind as well as to the one before, so neighbours count too. Outside of the
-    /// picture nothing is hidden.
+    /// picture nothing is hidden. Points beyond the [`Limits`] of the picture must be left out before.
     pub fn shows(&self, position: DVec2, distance: f64) -> bool {
         let (column, row) = self.cell(position);
         let mut farthest: Option<f32> = None;

@@ -4,9 +4,11 @@ use crate::model::edges::{EdgeCache, SeenEdges};
 use crate::model::grid::Grid;
 use crate::model::objects::Id;
 use crate::model::sight::Sight;
+use crate::model::viewport::Viewport;
 use eframe::egui::{Rect, Shape};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use glimray_scene::{Camera, Scene};
+use std::cell::RefCell;
 use std::sync::Arc;
 
 /// The picture that was looked at.
@@ -47,6 +49,8 @@ impl Subject {
                         .all(|(a, b)| Arc::ptr_eq(a, b))
                     && a.instances == b.instances
                     && a.lights.len() == b.lights.len()
+                    && (a.lights.iter().zip(&b.lights))
+                        .all(|(a, b)| (a.kind, a.node, a.visible) == (b.kind, b.node, b.visible))
                     && a.shapes.len() == b.shapes.len()
                     && (a.shapes.iter().zip(&b.shapes))
                         .all(|(a, b)| (a.geometry, a.node) == (b.geometry, b.node)))
@@ -97,12 +101,20 @@ impl<T> Drawn<T> {
     }
 }
 
+/// The vertex to which a click snaps, if there is one, and what it depends on.
+pub(crate) struct Snapped {
+    pub(crate) seen: Arc<Seen>,
+    pub(crate) viewport: Viewport,
+    pub(crate) pixel: [u32; 2],
+    pub(crate) vertex: Option<DVec3>,
+}
+
 /// Knowledge about the pixels of the picture.
 #[derive(Default)]
 pub struct SightState {
     /// The last answer.
     pub latest: Option<Arc<Seen>>,
-    /// The picture that was asked about, while the answer is to come.
+    /// The picture that was asked about, while the answer is to come and after it failed.
     pub(crate) asked: Option<Subject>,
     /// The edges of meshes that were looked at.
     pub(crate) cache: EdgeCache,
@@ -112,6 +124,10 @@ pub struct SightState {
     pub(crate) grid: Option<Drawn<(Arc<Seen>, Grid)>>,
     /// The drawn silhouettes.
     pub(crate) outlined: Option<Drawn<Arc<Silhouettes>>>,
+    /// The picture in which the rectangle was drawn that waits to be applied.
+    pub(crate) boxed: Option<Subject>,
+    /// The vertex that was found last for the pixel under the pointer.
+    pub(crate) snapped: RefCell<Option<Snapped>>,
     /// The silhouettes of a selection in the last answer.
     pub(crate) silhouettes: Option<(Vec<Id>, Arc<Silhouettes>)>,
 }

@@ -2,7 +2,7 @@
 
 use super::edit::{BLUE, RED, file, on_screen, open};
 use crate::harness::Window;
-use eframe::egui::{Event, Key, Modifiers, Pos2, vec2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
 use glam::{DVec3, dvec3};
 use glimray_viewer::model::bindings::Preset;
 use glimray_viewer::model::tool::Tool;
@@ -110,6 +110,59 @@ fn a_lamp_without_a_surface_is_in_the_rectangle_where_it_stands() {
     let text = std::fs::read_to_string(&path).expect("a scene");
     let lamp = text.replace("position = [3, 4, 5]", "position = [0, 1, 0]");
     std::fs::write(&path, lamp).expect("a file");
+    let mut window = open(&path, "400x300");
+    window.session().tool = Tool::Box;
+    let ends = around(&window, dvec3(0.0, 1.0, 0.0));
+    drag(&mut window, ends, Modifiers::NONE);
+    let light = glimray::scene::ObjectRef::Light(0);
+    let expected = glimray_viewer::model::objects::Id::Object(light);
+    assert_eq!(window.session().selected(), [expected]);
+}
+
+#[test]
+fn a_rectangle_that_waits_is_dropped_when_the_view_changes() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "400x300");
+    window.session().tool = Tool::Box;
+    window.session().select(vec![BLUE]);
+    window.settle();
+    let [from, to] = around(&window, LEFT);
+    window.harness.hover_at(from);
+    window.harness.step();
+    window.harness.drag_at(from);
+    window.harness.step();
+    window.harness.hover_at(to);
+    window.harness.step();
+    // No answer can have come when the button is released.
+    window.session().sight.latest = None;
+    window.harness.event(Event::PointerButton {
+        pos: to,
+        button: PointerButton::Primary,
+        pressed: false,
+        modifiers: Modifiers::NONE,
+    });
+    window.harness.step();
+    assert!(window.session().tool_state.boxed.is_some());
+    let mut controller = window.session().controller.clone().expect("a camera");
+    controller.orbit(glam::dvec2(40.0, 0.0), glam::dvec2(400.0, 300.0));
+    window.session().controller = Some(controller);
+    window.settle();
+    assert!(window.session().tool_state.boxed.is_none());
+    assert_eq!(window.session().selected(), [BLUE]);
+    // Without a change it selects as soon as the answer comes.
+    let [from, to] = around(&window, LEFT);
+    drag(&mut window, [from, to], Modifiers::NONE);
+    assert_eq!(window.session().selected(), [RED]);
+}
+
+#[test]
+fn an_area_light_that_is_not_visible_is_selected_where_it_stands() {
+    let (_folder, path) = file();
+    let text = std::fs::read_to_string(&path).expect("a scene");
+    let point = "point = { position = [3, 4, 5], color = [0.9, 0.9, 0.9] }";
+    let hidden =
+        "sphere = { center = [0, 1, 0], radius = 0.2, color = [1, 1, 1], visible = false }";
+    std::fs::write(&path, text.replace(point, hidden)).expect("a file");
     let mut window = open(&path, "400x300");
     window.session().tool = Tool::Box;
     let ends = around(&window, dvec3(0.0, 1.0, 0.0));

@@ -5,12 +5,13 @@ use crate::harness::Window;
 use eframe::egui::{Key, Modifiers, Pos2};
 use egui_kittest::kittest::Queryable;
 use glam::{DVec2, DVec3, Vec3, dvec3};
-use glimray::scene::{Camera, Mesh};
+use glimray::scene::{Camera, Mesh, Scene, Section};
 use glimray_viewer::model::bindings::Action;
 use glimray_viewer::model::camera::project;
 use glimray_viewer::model::edges::MeshEdges;
 use glimray_viewer::model::grid::Grid;
 use glimray_viewer::model::handles::Eye;
+use glimray_viewer::model::sight::Limits;
 use glimray_viewer::model::snapping::grid_step;
 use tempfile::TempDir;
 
@@ -150,6 +151,86 @@ fn the_edges_of_a_cube_are_drawn_as_far_as_they_can_be_seen() {
     let total: f64 = latest.edges.lines.iter().map(|[a, b]| a.distance(*b)).sum();
     let off = total / expected - 1.0;
     assert!(off.abs() < 0.02, "{total} pixels of edges, not {expected}");
+}
+
+/// The total length of the lines between pairs of points in the world, as a picture of 400 × 300 pixels shows them.
+fn length_of(lines: &[[DVec3; 2]], camera: &Camera) -> f64 {
+    let at = |end| project(camera, end, DVec2::new(400.0, 300.0)).expect("in front");
+    lines.iter().map(|[a, b]| at(*a).distance(at(*b))).sum()
+}
+
+/// The total length of the edges that a window has found, in pixels.
+fn found_length(window: &Window) -> f64 {
+    let session = window.session();
+    let latest = session.sight.latest.as_ref().expect("an answer");
+    latest.edges.lines.iter().map(|[a, b]| a.distance(*b)).sum()
+}
+
+#[test]
+fn edges_end_at_the_section_plane() {
+    let (_folder, mut window) = open();
+    window.session().overlays.features = true;
+    let left = Section {
+        normal: DVec3::X,
+        offset: 0.0,
+    };
+    window
+        .session()
+        .edit("cut", |scene| scene.section = Some(left));
+    window.settle();
+    let camera = window.session().camera().expect("a camera");
+    // Half a cube hides its corner (−1, −1, −1) and the three edges there. The cut itself has no edges.
+    let (min, max, middle) = (-1.0, 1.0, 0.0);
+    let ends = [(max, max), (max, min), (min, max)];
+    let mut lines: Vec<_> = (ends.into_iter())
+        .map(|(y, z)| [dvec3(min, y, z), dvec3(middle, y, z)])
+        .collect();
+    lines.push([dvec3(min, min, max), DVec3::new(min, max, max)]);
+    lines.push([dvec3(min, max, min), DVec3::new(min, max, max)]);
+    let (found, expected) = (found_length(&window), length_of(&lines, &camera));
+    let off = found / expected - 1.0;
+    assert!(off.abs() < 0.05, "{found} pixels of edges, not {expected}");
+}
+
+#[test]
+fn a_picture_shows_what_lies_between_the_planes_of_the_camera_and_is_not_cut_away() {
+    let camera = Camera {
+        look_from: dvec3(0.0, 0.0, 8.0),
+        look_at: DVec3::ZERO,
+        clip: (2.0, 11.0),
+        ..Camera::default()
+    };
+    let section = Section {
+        normal: DVec3::Y,
+        offset: 0.5,
+    };
+    let scene = Scene {
+        section: Some(section),
+        ..Scene::default()
+    };
+    let limits = Limits::of(&scene, &camera);
+    // From z = 6, at a distance of 2, to z = −3, at a distance of 11.
+    let clip = |a: [f64; 3], b: [f64; 3]| limits.clip((a.into(), b.into()));
+    let is_near = |found: Option<(DVec3, DVec3)>, [a, b]: [[f64; 3]; 2]| {
+        let (from, to) = found.expect("a part of the line");
+        from.distance(a.into()) < 1e-3 && to.distance(b.into()) < 1e-3
+    };
+    let whole = clip([1.0, 0.0, 7.0], [1.0, 0.0, -9.0]);
+    assert!(is_near(whole, [[1.0, 0.0, 6.0], [1.0, 0.0, -3.0]]));
+    let upright = clip([0.0, 2.5, 0.0], [0.0, -1.5, 0.0]);
+    assert!(is_near(upright, [[0.0, 0.5, 0.0], [0.0, -1.5, 0.0]]));
+    assert_eq!(clip([0.0, 0.6, 0.0], [0.0, 9.0, 0.0]), None);
+    assert_eq!(clip([0.0, 0.0, 6.1], [3.0, 0.0, 7.0]), None);
+    for (point, is_inside) in [
+        ([0.0, 0.0, 0.0], true),
+        ([4.0, 0.5, 0.0], true),
+        ([4.0, 0.501, 0.0], false),
+        ([0.0, 0.0, 6.0], true),
+        ([0.0, 0.0, 6.01], false),
+        ([0.0, 0.0, -3.01], false),
+    ] {
+        assert_eq!(limits.contain(point.into()), is_inside, "{point:?}");
+    }
 }
 
 /// A cube whose faces have vertices of their own, as files store them.

@@ -4,6 +4,7 @@ use super::edit::{file, on_screen, open};
 use super::focus::click_at;
 use eframe::egui::{Event, Key, Modifiers, OutputCommand, PointerButton, vec2};
 use glam::{DVec3, dvec3};
+use glimray::scene::Section;
 use glimray_viewer::model::tool::Tool;
 
 /// The point of a ball of radius 0.75 that a camera at (0, 0, 8) sees at its centre.
@@ -144,4 +145,33 @@ fn ends_snap_to_vertices_and_measurements_are_kept_copied_and_removed() {
         window.session().scene().expect("a scene").shapes.len(),
         objects
     );
+}
+
+#[test]
+fn ends_do_not_snap_to_vertices_that_the_section_plane_cuts_away() {
+    let (_folder, path) = file();
+    let text = std::fs::read_to_string(&path).expect("a scene");
+    let ball = "sphere = { center = [1, 0, 0], radius = 0.75 }";
+    let cube = "box = { min = [0.5, -0.5, -0.5], max = [1.5, 0.5, 0.5] }";
+    std::fs::write(&path, text.replace(ball, cube)).expect("a file");
+    let mut window = open(&path, "400x300");
+    window.session().tool = Tool::Measure;
+    // Through the middle of the cube, and through its front face, where the corner stays.
+    for (offset, expected) in [(0.0, 0.0), (0.5, 0.5)] {
+        window.session().edit("cut", |scene| {
+            scene.section = Some(Section {
+                normal: DVec3::Z,
+                offset,
+            });
+        });
+        window.settle();
+        let corner = dvec3(0.5, 0.5, 0.5);
+        let at = on_screen(&window, corner) + vec2(4.0, 4.0);
+        click_at(&mut window, at, PointerButton::Primary);
+        window.settle();
+        let point = *(window.session().tool_state.measured.last()).expect("a point");
+        assert!((point.z - expected).abs() < 1e-3, "{point} at {offset}");
+        let is_corner = point.distance(corner) < 1e-6;
+        assert_eq!(is_corner, offset == 0.5, "{point} at {offset}");
+    }
 }
