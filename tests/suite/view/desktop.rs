@@ -623,7 +623,7 @@ fn pictures_of_the_window_for_the_readme() {
     for [x, y] in [
         ["302", "110"],
         ["740", "330"],
-        ["302", "141"],
+        ["302", "171"],
         ["889", "37"],
     ] {
         click(x, y);
