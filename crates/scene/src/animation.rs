@@ -21,7 +21,7 @@ pub struct Clip {
 }
 
 /// A property that a track drives. The numbers are indices into the [`super::Scene`]'s lists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Target {
     /// A property of a [`super::Node`].
     Node(usize, NodeProperty),

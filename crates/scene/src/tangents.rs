@@ -3,7 +3,7 @@
 use super::mikktspace::{self, Surface, Tangents};
 use super::{Influences, Material, Mesh, MorphTarget, Scene, Space, Texture};
 use crate::threads;
-use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3, Vec4};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
@@ -50,6 +50,35 @@ impl Scene {
             }
         }
         self.deform_copies(&copies_of);
+    }
+
+    /// Changes materials or textures. Tangents follow: where the texture coordinates of normal maps lie differently after it,
+    /// those of meshes are found anew, also those that their files give. Tangents of surfaces that needed none are
+    /// those of the first texture coordinates.
+    pub fn change_mappings<T>(&mut self, change: impl FnOnce(&mut Self) -> T) -> T {
+        let before = Mappings::new(self);
+        let result = change(self);
+        let after = Mappings::new(self);
+        let is_other = |material: usize| before.axes(material) != after.axes(material);
+        let others: Vec<bool> = (0..self.materials.len()).map(is_other).collect();
+        let is_new = |material: usize| !before.needs(material) && after.needs(material);
+        if others.contains(&true) {
+            // Nodes may share a mesh.
+            let mut known = HashMap::<_, usize>::new();
+            for index in 0..self.meshes.len() {
+                match known.get(&Arc::as_ptr(&self.meshes[index])) {
+                    Some(first) => self.meshes[index] = self.meshes[*first].clone(),
+                    None => {
+                        known.insert(Arc::as_ptr(&self.meshes[index]), index);
+                        forget(&mut self.meshes[index], &others);
+                    }
+                }
+            }
+        }
+        if others.contains(&true) || (0..self.materials.len()).any(is_new) {
+            self.complete_tangents();
+        }
+        result
     }
 
     /// Lets copies of vertices move as these do. What deformations shared, they share again.
@@ -120,6 +149,39 @@ impl Mappings {
             mappings.of_materials.push(place);
         }
         mappings
+    }
+
+    /// Whether the surfaces of a material need tangents.
+    fn needs(&self, material: usize) -> bool {
+        self.of_materials.get(material).is_some_and(Option::is_some)
+    }
+
+    /// The directions of a material's tangents depend on this: the set of texture coordinates, and the axes of the picture.
+    fn axes(&self, material: usize) -> (bool, DMat3) {
+        let mapping = self.of_materials.get(material).copied().flatten();
+        mapping.map_or((false, DMat3::IDENTITY), |mapping| {
+            let Mapping {
+                is_second,
+                picture_from_uv,
+            } = self.list[mapping];
+            (is_second, picture_from_uv.matrix3)
+        })
+    }
+}
+
+/// Removes the tangents of triangles of these materials.
+fn forget(mesh: &mut Arc<Mesh>, of_materials: &[bool]) {
+    let is_it = |triangle: &[u32; 3]| {
+        let material = mesh.materials[triangle[0] as usize];
+        of_materials[material as usize]
+    };
+    if mesh.tangents.is_empty() || !mesh.triangles.iter().any(is_it) {
+        return;
+    }
+    let triangles: Vec<[u32; 3]> = mesh.triangles.iter().copied().filter(is_it).collect();
+    let tangents = &mut Arc::make_mut(mesh).tangents;
+    for vertex in triangles.into_iter().flatten() {
+        tangents[vertex as usize] = Vec4::ZERO;
     }
 }
 

@@ -9,6 +9,7 @@ pub mod pictures;
 mod screenshot;
 pub mod show;
 
+use crate::actions::texturing;
 use crate::model::file_dialog::{self, Reply, Request, ends_in};
 use crate::model::watch::Change;
 use crate::state::files::Broken;
@@ -115,6 +116,7 @@ fn take_back_choice(session: &mut Session) {
 /// and files that are read for it.
 fn left(session: &mut Session) {
     pictures::abandon(session);
+    texturing::abandon(session);
     let files = &mut session.files;
     files.saving = None;
     files.film = None;
@@ -122,7 +124,6 @@ fn left(session: &mut Session) {
     files.asked_model = None;
     files.model = None;
     files.environment = None;
-    files.texturing.opening = None;
     session.picture_menu = None;
 }
 
@@ -292,6 +293,7 @@ pub fn loaded(session: &mut Session, opened: Opened) {
             session.preferences.opened(&path);
             session.files.candidates.clear();
             session.files.before_choice = None;
+            texturing::abandon(session);
             if !again {
                 session.editing.forget_written();
                 left(session);

@@ -16,7 +16,7 @@ pub fn add(session: &mut Session, preset: MaterialPreset) {
     let takers = selected_surfaces(session);
     let added = session.change(&format!("add {name}"), |scene| {
         let index = preset.add_to(scene);
-        (takers.iter()).try_for_each(|object| objects::assign(scene, *object, index))?;
+        objects::assign_all(scene, &takers, index)?;
         Ok(index)
     });
     let Some(index) = added else {
@@ -33,9 +33,13 @@ pub fn add(session: &mut Session, preset: MaterialPreset) {
 }
 
 /// The selected objects that have a material.
-fn selected_surfaces(session: &Session) -> Vec<ObjectRef> {
+pub fn selected_surfaces(session: &Session) -> Vec<ObjectRef> {
+    let Some(scene) = session.scene() else {
+        return Vec::new();
+    };
     let surface = |id| match id {
-        Id::Object(object) if !matches!(object, ObjectRef::Light(_)) => Some(object),
+        Id::Object(ObjectRef::Light(_)) => None,
+        Id::Object(object) => objects::is_there(scene, id).then_some(object),
         _ => None,
     };
     session.selected().into_iter().filter_map(surface).collect()
@@ -56,7 +60,7 @@ pub fn assign(session: &mut Session, material: usize, object: ObjectRef) {
     let ids: Vec<Id> = takers.iter().copied().map(Id::Object).collect();
     let (what, to) = (session.label(Id::Material(material)), session.labels(&ids));
     session.change(&format!("give {what} to {to}"), |scene| {
-        (takers.iter()).try_for_each(|object| objects::assign(scene, *object, material))
+        objects::assign_all(scene, &takers, material)
     });
 }
 

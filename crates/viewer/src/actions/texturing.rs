@@ -3,6 +3,7 @@
 use crate::actions::files::{NO_DIALOG, short};
 use crate::model::file_dialog::{self, Reply, Request};
 use crate::model::objects::Id;
+use crate::model::texture_slots::TextureSlot;
 use crate::state::session::Session;
 use crate::state::texturing::{PictureRead, Stage, TexturePlace};
 use eframe::egui;
@@ -12,8 +13,23 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{TryRecvError, channel};
 
-/// Asks for the file of a picture for a material.
-pub fn ask(session: &mut Session, ctx: &egui::Context, place: TexturePlace) {
+/// Asks for the file of a picture for a slot of materials. Materials without the slot are left out.
+pub fn ask(
+    session: &mut Session,
+    ctx: &egui::Context,
+    slot: &'static TextureSlot,
+    materials: impl IntoIterator<Item = usize>,
+) {
+    let Some(scene) = session.scene() else {
+        return;
+    };
+    let has_slot = |index: &usize| {
+        let material = scene.materials.get(*index);
+        material.is_some_and(|it| TextureSlot::of(it).any(|own| std::ptr::eq(own, slot)))
+    };
+    let label = |index| (index, session.label(Id::Material(index)));
+    let materials = materials.into_iter().filter(has_slot).map(label).collect();
+    let place = TexturePlace { slot, materials };
     let folder = session.path.as_deref().and_then(Path::parent);
     let request = Request {
         saves: false,
@@ -29,7 +45,7 @@ pub fn ask(session: &mut Session, ctx: &egui::Context, place: TexturePlace) {
 /// Reads a picture on a thread of its own. The material has it then.
 pub fn open(session: &mut Session, place: TexturePlace, path: PathBuf) {
     let (sender, receiver) = channel();
-    let (from, meaning) = (path.clone(), place.1.meaning);
+    let (from, meaning) = (path.clone(), place.slot.meaning);
     let read = move || {
         // The window may have been closed meanwhile.
         let _ = sender.send(import::texture(&from, meaning));
@@ -39,6 +55,14 @@ pub fn open(session: &mut Session, place: TexturePlace, path: PathBuf) {
             session.files.texturing.opening = Some((place, Stage::Reading(path, receiver)));
         }
         Err(error) => (session.messages).warn(format!("Cannot read the picture: {error}.")),
+    }
+}
+
+/// Opens no picture for a scene that is gone.
+pub fn abandon(session: &mut Session) {
+    if session.files.texturing.opening.take().is_some() {
+        let why = "The picture was not opened: another scene is shown. Open it again.";
+        session.messages.warn(why.to_owned());
     }
 }
 
@@ -84,15 +108,29 @@ pub fn update(session: &mut Session) {
     session.files.texturing.opening = goes_on.map(|stage| (place, stage));
 }
 
-fn show(session: &mut Session, (index, slot): TexturePlace, path: &Path, outcome: PictureRead) {
+fn show(session: &mut Session, place: TexturePlace, path: &Path, outcome: PictureRead) {
     let (picture, notes) = match outcome {
         Ok(read) => read,
         Err(error) => return session.messages.warn(advice::import(&error)),
     };
-    let (name, label) = (short(path), session.label(Id::Material(index)));
+    let name = short(path);
+    // An undone step or a reloaded file may have put others in their places.
+    let is_other =
+        |(index, label): &&(usize, String)| session.label(Id::Material(*index)) != *label;
+    if let Some((_, label)) = place.materials.iter().find(is_other) {
+        let why = format!(
+            "Cannot open {name} for {label}: the material is no longer there. Open the picture again."
+        );
+        return session.messages.warn(why);
+    }
+    let to = match &place.materials[..] {
+        [(_, label)] => label.clone(),
+        several => format!("{} items", several.len()),
+    };
+    let materials: Vec<usize> = place.materials.iter().map(|(index, _)| *index).collect();
     let known = (Arc::downgrade(&picture), name.clone());
-    let step = format!("open {name} for {label}");
-    let shown = session.change(&step, |scene| slot.show(scene, index, picture));
+    let step = format!("open {name} for {to}");
+    let shown = session.change(&step, |scene| place.slot.show(scene, &materials, picture));
     let Some(halvings) = shown else {
         return;
     };

@@ -50,6 +50,7 @@ impl MaterialPreset {
 
     /// The preset that a material has all parameters of.
     pub fn of(material: &Material) -> Option<Self> {
+        material.metallic_roughness()?;
         (Self::ALL.into_iter()).find(|preset| preset.replacing(material) == *material)
     }
 

@@ -10,12 +10,12 @@ mod several;
 pub use frame::{of_geometry, of_light};
 pub use names::{Labels, name, rename, unused_name};
 pub use parent::set_parent;
-pub use place::{Freedom, Scaling, freedom, place, place_in, set_place};
+pub use place::{Freedom, Scaling, freedom, freedom_if, place, place_in, set_place, set_place_in};
 pub use scope::{bounds, carried_by, hide_others, is_there, same, show_all, subject};
 pub use several::{common_place, movable, transform};
 
 use glimray_scene::{Node, ObjectRef, Scene, Target, is_numbered};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 /// A selectable part of a scene. Indices are those of the scene's lists.
@@ -393,38 +393,65 @@ pub fn materials_of(scene: &Scene, object: ObjectRef) -> Vec<usize> {
     }
 }
 
-/// Assigns a material to a whole object. A mesh that is shared is copied first.
+/// Assigns a material to a whole object, as [`assign_all`] does.
 ///
 /// # Errors
-/// `object` is a light, or the material does not exist.
+/// As for [`assign_all`].
 pub fn assign(scene: &mut Scene, object: ObjectRef, material: usize) -> Result<(), EditError> {
-    check(scene, Id::Object(object))?;
+    assign_all(scene, &[object], material)
+}
+
+/// Assigns a material to whole objects. A mesh that others have too is copied, once for all that get the material.
+///
+/// # Errors
+/// One of them is a light, or it or the material does not exist. The scene may then be changed in part.
+pub fn assign_all(
+    scene: &mut Scene,
+    objects: &[ObjectRef],
+    material: usize,
+) -> Result<(), EditError> {
     check(scene, Id::Material(material))?;
-    match object {
-        ObjectRef::Shape(index) => scene.shapes[index].material = material,
-        ObjectRef::Instance(index) => {
-            let mesh = scene.instances[index].mesh;
-            let is_same = |used: &u32| *used as usize == material;
-            if scene.meshes[mesh].materials.iter().all(is_same) {
-                return Ok(());
+    let mut takers = BTreeMap::<usize, BTreeSet<usize>>::new();
+    for object in objects {
+        check(scene, Id::Object(*object))?;
+        match *object {
+            ObjectRef::Shape(index) => scene.shapes[index].material = material,
+            ObjectRef::Instance(index) => {
+                let mesh = scene.instances[index].mesh;
+                takers.entry(mesh).or_default().insert(index);
             }
-            let others = scene.instances.iter().filter(|other| other.mesh == mesh);
-            let own = if others.count() > 1 {
-                scene.copy_mesh(mesh)
-            } else {
-                mesh
-            };
-            scene.instances[index].mesh = own;
-            Arc::make_mut(&mut scene.meshes[own])
-                .materials
-                .fill(material as u32);
+            ObjectRef::Light(_) => {
+                return Err(EditError::Unable {
+                    what: "a light",
+                    done: "given a material",
+                    todo: "Change its colour instead",
+                });
+            }
         }
-        ObjectRef::Light(_) => {
-            return Err(EditError::Unable {
-                what: "a light",
-                done: "given a material",
-                todo: "Change its colour instead",
-            });
+    }
+    let is_same = |used: &u32| *used as usize == material;
+    takers.retain(|mesh, _| !scene.meshes[*mesh].materials.iter().all(is_same));
+    let mut users = HashMap::<usize, usize>::new();
+    for instance in &scene.instances {
+        *users.entry(instance.mesh).or_default() += 1;
+    }
+    // Several entries of the list may hold one mesh.
+    let mut filled = HashMap::<_, usize>::new();
+    for (mesh, takers) in takers {
+        let own = match takers.len() < users[&mesh] {
+            true => scene.copy_mesh(mesh),
+            false => mesh,
+        };
+        for taker in takers {
+            scene.instances[taker].mesh = own;
+        }
+        match filled.get(&Arc::as_ptr(&scene.meshes[own])) {
+            Some(known) => scene.meshes[own] = scene.meshes[*known].clone(),
+            None => {
+                filled.insert(Arc::as_ptr(&scene.meshes[own]), own);
+                let mesh = Arc::make_mut(&mut scene.meshes[own]);
+                mesh.materials.fill(material as u32);
+            }
         }
     }
     Ok(())

@@ -4,9 +4,10 @@ use crate::model::objects::EditError;
 use glam::{DAffine3, Vec3};
 use glimray_io::import::Meaning;
 use glimray_scene::{
-    Bsdf, Coverage, LayerTextures, Material, MetallicRoughness, Minify, Pattern, Phong,
+    Background, Bsdf, Coverage, LayerTextures, Material, MetallicRoughness, Minify, Pattern, Phong,
     PhongTextures, Picture, Scene, Space, Texture, Textures, Wrap, fit,
 };
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A place for a texture in a material.
@@ -38,10 +39,13 @@ enum Wake {
 }
 
 const MULTIPLIES: &str = "Texture that multiplies this colour or number.";
+/// The title of the slot of the normal map.
+pub const NORMAL_MAP: &str = "Normal map";
+const COAT_MAP: &str = "Clear coat normal map";
 const BUMPS: &str = "Normals of small bumps, as a picture.";
 
 macro_rules! slot {
-    ($title:literal, $tip:expr, $meaning:ident, $index:ident($name:ident), $wake:expr) => {
+    ($title:expr, $tip:expr, $meaning:ident, $index:ident($name:ident), $wake:expr) => {
         TextureSlot {
             title: $title,
             tip: $tip,
@@ -108,7 +112,7 @@ static LAYERS: [TextureSlot; 16] = [
     number!("× Clear coat", clearcoat),
     number!("× Clear coat roughness", clearcoat_roughness),
     slot!(
-        "Clear coat normal map",
+        COAT_MAP,
         BUMPS,
         Numbers,
         Layers(clearcoat_normal),
@@ -138,7 +142,7 @@ static OWN: [TextureSlot; 3] = [
         Own(emission),
         Wake::Own(|it| raise(&mut it.emission))
     ),
-    slot!("Normal map", BUMPS, Normals, Own(normal), Wake::Nothing),
+    slot!(NORMAL_MAP, BUMPS, Normals, Own(normal), Wake::Nothing),
     slot!(
         "× Alpha",
         "Texture whose alpha says how much of the surface is there.",
@@ -207,8 +211,24 @@ impl TextureSlot {
         material: usize,
         texture: Option<usize>,
     ) -> Result<(), EditError> {
+        self.change(scene, |scene| self.set_index(scene, material, texture))
+    }
+
+    /// Changes textures of this slot. Tangents follow.
+    fn change<T>(&self, scene: &mut Scene, change: impl FnOnce(&mut Scene) -> T) -> T {
+        match [NORMAL_MAP, COAT_MAP].contains(&self.title) {
+            true => scene.change_mappings(change),
+            false => change(scene),
+        }
+    }
+
+    fn set_index(
+        &self,
+        scene: &mut Scene,
+        material: usize,
+        texture: Option<usize>,
+    ) -> Result<(), EditError> {
         let own = scene.materials.get_mut(material).ok_or(EditError::Gone)?;
-        let had_tangents = own.has_tangents();
         let slot = match (&self.index, &mut own.bsdf) {
             (Index::Own(slot), _) => slot(&mut own.textures),
             (Index::Phong(slot), Bsdf::Phong(phong)) => slot(&mut phong.textures),
@@ -218,13 +238,10 @@ impl TextureSlot {
             _ => return Err(EditError::Gone),
         };
         *slot = texture;
-        if !had_tangents && own.has_tangents() {
-            scene.complete_tangents();
-        }
         Ok(())
     }
 
-    /// Gives a material a picture here. It takes the placement of the picture that it replaces; other users of that one keep
+    /// Gives materials a picture here. It takes the placement of the picture that it replaces; other users of that one keep
     /// it. A factor of 0 becomes 1. Returns how many times pictures were halved so that all fit into memory.
     ///
     /// # Errors
@@ -232,13 +249,35 @@ impl TextureSlot {
     pub fn show(
         &self,
         scene: &mut Scene,
-        material: usize,
+        materials: &[usize],
         picture: Arc<Picture>,
     ) -> Result<usize, EditError> {
-        let own = scene.materials.get(material).ok_or(EditError::Gone)?;
-        let before = self.get(own);
         scene.pictures.push(picture);
         let picture = scene.pictures.len() - 1;
+        let mut known = BTreeMap::new();
+        self.change(scene, |scene| {
+            (materials.iter())
+                .try_for_each(|material| self.show_one(scene, *material, picture, &mut known))
+        })?;
+        Ok(fit_used(scene))
+    }
+
+    /// `known`: the textures of the picture, by those that they replace.
+    fn show_one(
+        &self,
+        scene: &mut Scene,
+        material: usize,
+        picture: usize,
+        known: &mut BTreeMap<Option<usize>, usize>,
+    ) -> Result<(), EditError> {
+        let own = scene.materials.get(material).ok_or(EditError::Gone)?;
+        let before = self.get(own);
+        if before.is_none() {
+            self.wake(&mut scene.materials[material]);
+        }
+        if let Some(texture) = known.get(&before) {
+            return self.set_index(scene, material, Some(*texture));
+        }
         let users = (scene.materials.iter())
             .flat_map(Material::texture_indices)
             .filter(|index| Some(*index) == before)
@@ -267,13 +306,12 @@ impl TextureSlot {
             Some(index) => scene.textures[index] = texture,
             None => {
                 scene.textures.push(texture);
-                self.set(scene, material, Some(scene.textures.len() - 1))?;
+                let own = scene.textures.len() - 1;
+                known.insert(before, own);
+                self.set_index(scene, material, Some(own))?;
             }
         }
-        if before.is_none() {
-            self.wake(&mut scene.materials[material]);
-        }
-        Ok(fit(&mut scene.pictures))
+        Ok(())
     }
 
     fn wake(&self, material: &mut Material) {
@@ -292,6 +330,22 @@ impl TextureSlot {
             _ => {}
         }
     }
+}
+
+/// Halves the pictures that are shown until they fit into memory. Returns how many times that was.
+fn fit_used(scene: &mut Scene) -> usize {
+    let textures = scene.materials.iter().flat_map(Material::texture_indices);
+    let mut used: BTreeSet<usize> = textures
+        .filter_map(|texture| match scene.textures[texture].pattern {
+            Pattern::Picture { picture, .. } => Some(picture),
+            _ => None,
+        })
+        .collect();
+    if let Background::Picture { picture, .. } = scene.background {
+        used.insert(picture);
+    }
+    let pictures = scene.pictures.iter_mut().enumerate();
+    fit(pictures.filter_map(|(index, picture)| used.contains(&index).then_some(picture)))
 }
 
 impl std::fmt::Debug for TextureSlot {

@@ -11,8 +11,12 @@ use std::sync::{Arc, Weak};
 /// An image, or why it cannot be read.
 pub type PictureRead = Result<(Arc<Picture>, Vec<String>), ImportError>;
 
-/// Where a picture goes: the index of a material, and one of its slots.
-pub type TexturePlace = (usize, &'static TextureSlot);
+/// Where a picture goes: a slot of materials.
+pub struct TexturePlace {
+    pub(crate) slot: &'static TextureSlot,
+    /// Indices of materials and their labels.
+    pub(crate) materials: Vec<(usize, String)>,
+}
 
 /// The state of opening pictures for materials.
 #[derive(Default)]

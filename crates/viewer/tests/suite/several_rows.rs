@@ -2,12 +2,13 @@
 
 use crate::edit::{perform, scene};
 use crate::harness::Window;
+use crate::support::effort::within;
 use eframe::egui::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
-use glam::Vec3;
-use glimray::scene::{Bsdf, Geometry, ObjectRef, Phong, Scene};
+use glam::{DVec3, Vec3};
+use glimray::scene::{Bsdf, Geometry, ObjectRef, Phong, Scene, Transform};
 use glimray_viewer::model::bindings::Action;
-use glimray_viewer::model::objects::Id;
+use glimray_viewer::model::objects::{self, Id};
 use tempfile::TempDir;
 
 /// Three balls, of which two share a material, and two lights.
@@ -49,9 +50,13 @@ point = { position = [-3, 4, 5], color = [0.5, 0.5, 0.5] }
 "#;
 
 fn open() -> (TempDir, Window) {
+    open_text(SCENE)
+}
+
+fn open_text(text: &str) -> (TempDir, Window) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scene.toml");
-    std::fs::write(&path, SCENE).expect("a scene");
+    std::fs::write(&path, text).expect("a scene");
     let path = path.to_str().expect("UTF-8");
     let mut window = Window::open(&[path, "--size=16x12", "--samples=1"]);
     window.settle();
@@ -189,4 +194,157 @@ fn rows_whose_values_differ_show_a_dash_until_they_are_edited() {
     window.settle();
     assert_eq!(radii(&scene(&window))[..2], [1.0, 1.0]);
     assert_eq!(shown(&window, "Radius"), "1");
+}
+
+fn toggle(window: &mut Window, label: &str) {
+    let row = (window.harness).get_by_role_and_label(Role::CheckBox, label);
+    row.click_accesskit();
+    window.settle();
+}
+
+#[test]
+fn a_linked_scale_changes_all_factors_of_all() {
+    let boxes = r#"
+[camera]
+look_from = [0, 0, 9]
+look_at = [0, 0, 0]
+
+[materials.grey]
+phong = { diffuse = [0.5, 0.5, 0.5] }
+
+[[objects]]
+box = { min = [-1, -2, -3], max = [1, 2, 3] }
+material = "grey"
+
+[[objects]]
+box = { min = [4, -1, -2], max = [12, 1, 2] }
+material = "grey"
+"#;
+    let (_folder, mut window) = open_text(boxes);
+    select(&mut window, &[ball(0), ball(1)]);
+    let scale = |window: &Window, index: usize| {
+        let place = objects::place(&scene(window), ball(index), 0.0).expect("a place");
+        Transform::of(place).0.scale
+    };
+    let before = [0, 1].map(|index| scale(&window, index));
+    toggle(&mut window, "Uniform scale");
+    number(&mut window, "Scale x", 2.0);
+    for index in [0, 1] {
+        let factor = scale(&window, index) / before[index];
+        let wanted = DVec3::splat(2.0 / before[index].x);
+        assert!(factor.abs_diff_eq(wanted, 1e-9), "{index}: {factor}");
+    }
+}
+
+#[test]
+fn the_ambient_colours_of_all_follow_or_stay_as_those_of_the_first() {
+    let same = SCENE
+        .replace("ambient = [0.5, 0.5, 0.5], ", "")
+        .replace(
+            "shininess = 10",
+            "shininess = 10, ambient = [0.25, 0.25, 0.25]",
+        )
+        .replace("[0.75, 0.25, 0.25]", "[0.25, 0.25, 0.25]")
+        .replace("[0.25, 0.25, 0.75]", "[0.25, 0.25, 0.25]");
+    let (_folder, mut window) = open_text(&same);
+    select(&mut window, &[ball(0), ball(1)]);
+    number(&mut window, "Diffuse red", 0.5);
+    let found = scene(&window);
+    let half = Vec3::new(0.5, 0.25, 0.25);
+    for index in [0, 1] {
+        let phong = phong(&found, index);
+        assert_eq!((phong.diffuse, phong.ambient), (half, half), "{index}");
+    }
+    toggle(&mut window, "Ambient follows diffuse");
+    number(&mut window, "Diffuse red", 1.0);
+    number(&mut window, "Ambient blue", 0.75);
+    let found = scene(&window);
+    for index in [0, 1] {
+        let phong = phong(&found, index);
+        assert_eq!(phong.diffuse, Vec3::new(1.0, 0.25, 0.25), "{index}");
+        assert_eq!(phong.ambient, Vec3::new(0.5, 0.25, 0.75), "{index}");
+    }
+    toggle(&mut window, "Ambient follows diffuse");
+    let found = scene(&window);
+    for index in [0, 1] {
+        let phong = phong(&found, index);
+        assert_eq!(phong.ambient, phong.diffuse, "{index}");
+    }
+}
+
+#[test]
+fn each_row_keeps_to_its_own_limits() {
+    let (_folder, mut window) = open();
+    select(&mut window, &[ball(0), ball(3)]);
+    number(&mut window, "Index (ior)", 0.5);
+    let found = scene(&window);
+    assert_eq!(phong(&found, 0).ior, 0.5);
+    let metal = found.materials[2].metallic_roughness().expect("the model");
+    assert_eq!(metal.ior, 1.0, "files refuse less");
+}
+
+#[test]
+fn ten_thousand_selected_objects_cost_a_frame_little() {
+    const COUNT: usize = 10_000;
+    let head = SCENE.split("[[objects]]").next().expect("materials");
+    let one = |index: usize| {
+        let (x, y) = (index % 100, index / 100);
+        format!(
+            "[[objects]]\nsphere = {{ center = [{x}, {y}, 0], radius = 0.4 }}\nmaterial = \"red\"\n"
+        )
+    };
+    let objects: String = (0..COUNT).map(one).collect();
+    let (_folder, mut window) = open_text(&format!("{head}{objects}"));
+    let all: Vec<Id> = (0..COUNT).map(ball).collect();
+    select(&mut window, &all);
+    // Ten frames of 50 ms, with all other panels.
+    within(500.0, || window.harness.run_steps(10));
+    // All are compared and edited once.
+    within(2000.0, || {
+        let row = (window.harness).get_by_role_and_label(Role::SpinButton, "Position z");
+        row.set_value_accesskit(3.0);
+        window.harness.run_steps(4);
+    });
+    window.settle();
+    assert!(
+        centers(&scene(&window))
+            .iter()
+            .all(|center| center[2] == 3.0)
+    );
+}
+
+#[test]
+fn a_mesh_is_filled_for_all_its_objects_or_copied_once_for_some() {
+    use glam::DAffine3;
+    use glimray::scene::{Instance, Material, Mesh};
+    let instance = |mesh: usize| Instance {
+        mesh,
+        placement: DAffine3::IDENTITY,
+        node: None,
+        name: String::new(),
+    };
+    let mesh = Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+        normals: vec![Vec3::Z; 3],
+        materials: vec![0; 3],
+        triangles: vec![[0, 1, 2]],
+        ..Mesh::default()
+    };
+    let mut scene = Scene {
+        meshes: vec![mesh.into()],
+        instances: (0..3).map(|_| instance(0)).collect(),
+        materials: vec![Material::default(); 3],
+        ..Scene::default()
+    };
+    let given = |scene: &Scene| -> Vec<u32> {
+        let instances = scene.instances.iter();
+        let material = |it: &Instance| scene.meshes[it.mesh].materials[2];
+        instances.map(material).collect()
+    };
+    let all = [0, 1, 2].map(ObjectRef::Instance);
+    objects::assign_all(&mut scene, &all, 1).expect("given");
+    assert_eq!((given(&scene), scene.meshes.len()), (vec![1; 3], 1));
+    objects::assign_all(&mut scene, &all[1..], 2).expect("given");
+    assert_eq!((given(&scene), scene.meshes.len()), (vec![1, 2, 2], 2));
+    assert_eq!(scene.instances[1].mesh, scene.instances[2].mesh);
 }

@@ -287,3 +287,128 @@ fn without_a_file_dialog_the_path_is_typed() {
     window.settle();
     assert_eq!(phong(&scene(&window)).textures.ambient, Some(0));
 }
+
+#[test]
+fn a_picture_is_opened_for_all_selected_materials_that_have_the_slot() {
+    let (folder, mut window) = open();
+    let green = picture(&folder.path().join("green.png"), [0, 255, 0, 255]);
+    let both = [0, 1].map(|index| Id::Object(ObjectRef::Shape(index)));
+    window.session().select(both.to_vec());
+    window.settle();
+    unfold_textures(&mut window);
+    let before = scene(&window);
+    answer(&window, &green);
+    press(&mut window, "Open × Emission");
+    window.settle();
+    let found = scene(&window);
+    let emissions = found.materials.iter().map(|it| it.textures.emission);
+    assert_eq!(emissions.collect::<Vec<_>>(), [Some(0), Some(0)]);
+    assert_eq!((found.textures.len(), found.pictures.len()), (1, 1));
+    // The other material has no ambient colour.
+    press(&mut window, "Open × Ambient");
+    window.settle();
+    let found = scene(&window);
+    assert!(phong(&found).textures.ambient.is_some());
+    for _ in 0..2 {
+        perform(&mut window, Action::Undo);
+    }
+    assert!(scene(&window) == before);
+}
+
+#[test]
+fn a_picture_goes_to_no_other_material_than_was_asked_for() {
+    let (folder, mut window) = open();
+    let green = picture(&folder.path().join("green.png"), [0, 255, 0, 255]);
+    let dialogs = FileDialogs::answering(|_| Reply::Unavailable);
+    window.session().files.dialogs = dialogs;
+    select(&mut window, 0);
+    unfold_textures(&mut window);
+    press(&mut window, "Open × Ambient");
+    window.settle();
+    window.session().change("swap", |scene| {
+        scene.materials.swap(0, 1);
+        Ok(())
+    });
+    let before = scene(&window);
+    let field = window.harness.get_by_label("Path");
+    field.type_text(green.to_str().expect("UTF-8"));
+    window.settle();
+    click(&mut window, "Open");
+    window.settle();
+    assert!(scene(&window) == before);
+    let told = window.session().messages.current();
+    let last = told.last().expect("a message").text.clone();
+    assert!(
+        last.contains("tested") && last.lines().count() == 1,
+        "{last}"
+    );
+}
+
+/// A square in the plane z = 0 with the u and v of its corners, whose material has a normal map in texture 0.
+fn mapped() -> Scene {
+    use glam::{Vec2, Vec3};
+    use glimray::scene::{Material, Mesh, Space, Texture};
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from);
+    let mut material = Material::default();
+    material.textures.normal = Some(0);
+    let texture = Texture {
+        pattern: Pattern::Checker {
+            a: Vec3::ZERO,
+            b: Vec3::ONE,
+        },
+        space: Space::Uv,
+        pattern_from_space: glam::DAffine3::IDENTITY,
+    };
+    let mut scene = Scene {
+        meshes: vec![
+            Mesh {
+                positions: corners.map(|it| it.extend(0.0)).to_vec(),
+                normals: vec![Vec3::Z; 4],
+                uvs: corners.to_vec(),
+                materials: vec![0; 4],
+                triangles: vec![[0, 1, 2], [0, 2, 3]],
+                ..Mesh::default()
+            }
+            .into(),
+        ],
+        materials: vec![material],
+        textures: vec![texture],
+        ..Scene::default()
+    };
+    scene.complete_tangents();
+    scene
+}
+
+#[test]
+fn tangents_follow_the_placement_of_a_normal_map() {
+    let mut scene = mapped();
+    let is_along = |scene: &Scene, direction: glam::Vec3| {
+        let tangents = &scene.meshes[0].tangents;
+        (tangents.iter()).all(|it| it.truncate().abs_diff_eq(direction, 1e-6))
+    };
+    assert!(is_along(&scene, glam::Vec3::X));
+    let turn = |scene: &mut Scene, turned: glam::DAffine3| {
+        scene.change_mappings(|scene| scene.textures[0].pattern_from_space = turned);
+    };
+    // u of the picture is v of the square.
+    let quarter =
+        glam::DAffine3::from_mat3(glam::dmat3(-glam::DVec3::Y, glam::DVec3::X, glam::DVec3::Z));
+    turn(&mut scene, quarter);
+    assert!(is_along(&scene, glam::Vec3::Y));
+    turn(&mut scene, glam::DAffine3::IDENTITY);
+    assert!(is_along(&scene, glam::Vec3::X));
+    // Tangents that lie along no axis, as a file may give them, stay where a picture is only shifted.
+    let given = glam::vec4(0.6, 0.8, 0.0, 1.0);
+    std::sync::Arc::make_mut(&mut scene.meshes[0]).tangents = vec![given; 4];
+    turn(
+        &mut scene,
+        glam::DAffine3::from_translation(glam::DVec3::splat(0.25)),
+    );
+    assert!(is_along(&scene, given.truncate()));
+    // After another picture is removed, the coordinates of the surface count.
+    turn(&mut scene, quarter);
+    scene.change_mappings(|scene| scene.materials[0].textures.normal = None);
+    turn(&mut scene, glam::DAffine3::IDENTITY);
+    scene.change_mappings(|scene| scene.materials[0].textures.normal = Some(0));
+    assert!(is_along(&scene, glam::Vec3::X));
+}

@@ -34,12 +34,17 @@ pub struct Freedom {
 
 /// The freedoms of an object; none for cameras and materials, which have properties of their own.
 pub fn freedom(scene: &Scene, id: Id) -> Freedom {
+    let drives = |target: Target| (scene.tracks.iter()).any(|t| t.targets.contains(&target));
+    freedom_if(scene, id, drives)
+}
+
+/// [`freedom`] where `drives` says whether a track sets a property.
+pub fn freedom_if(scene: &Scene, id: Id, drives: impl Fn(Target) -> bool) -> Freedom {
     let freedom = |translate, rotate, scale| Freedom {
         translate,
         rotate,
         scale,
     };
-    let drives = |target: Target| (scene.tracks.iter()).any(|t| t.targets.contains(&target));
     match id {
         Id::Object(ObjectRef::Instance(_)) => freedom(true, true, Scaling::Uneven),
         Id::Object(ObjectRef::Shape(index)) => {
@@ -120,7 +125,10 @@ pub fn set_place(scene: &mut Scene, id: Id, wanted: DAffine3, time: f64) -> Resu
 }
 
 /// [`set_place`] in a frame of the scene, which may be from before changes of things that do not carry this one.
-pub(super) fn set_place_in(
+///
+/// # Errors
+/// As for [`set_place`].
+pub fn set_place_in(
     scene: &mut Scene,
     frame: &Frame,
     id: Id,

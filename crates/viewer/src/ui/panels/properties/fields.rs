@@ -1,23 +1,27 @@
 //! Rows with a label and a value. Every edit becomes a named change of the scene, of all that is selected and has the row.
 
+mod moment;
 mod number;
 mod peers;
 
+pub use moment::Moment;
 pub use number::Limits;
-pub use peers::{Chosen, Edited, Peers};
+pub use peers::{Chosen, Compared, Edited, Key, Options, Peers};
 
-use crate::model::objects::EditError;
-use crate::state::texturing::TexturePlace;
+use crate::model::objects::{self, EditError};
+use crate::model::texture_slots::TextureSlot;
 use crate::ui::panels::icon::{edge, named};
 use crate::ui::panels::row;
 use crate::ui::theme;
 use crate::ui::thumbnails::Thumbnails;
 use eframe::egui::{self, Ui, vec2};
 use glam::{DVec2, DVec3, Vec3};
-use glimray_scene::{Picture, Scene, Target};
+use glimray_scene::{ObjectRef, Picture, Scene, Target};
 use number::{Name, drag};
-use peers::{Parts, Peer, apply_to};
-use std::sync::Weak;
+use peers::{Parts, apply_to};
+use std::any::TypeId;
+use std::collections::HashMap;
+use std::sync::{Arc, Weak};
 
 /// Width of the letter of an axis.
 const AXIS: f32 = 8.0;
@@ -32,29 +36,46 @@ pub struct Change {
     pub apply: Box<Apply>,
 }
 
+/// An edit of a row, which changes all that is selected and has the row.
+pub struct Edit {
+    /// A description, such as "change radius of 3 items".
+    pub name: String,
+    /// The row.
+    pub key: Key,
+    /// Applies the edit to what is shown and to the rows of the others.
+    pub apply: Box<ApplyToAll>,
+}
+
+/// A change that can fail, of several rows.
+type ApplyToAll = dyn FnOnce(&mut Scene, Peers) -> Result<(), EditError>;
+
 /// A change that can fail.
 type Apply = dyn FnOnce(&mut Scene) -> Result<(), EditError>;
 
 /// The label and the tooltip of a row.
-type Label<'a> = (&'a str, &'a str);
+type Label<'a> = (&'static str, &'a str);
 
 /// The input and the output of rows that are drawn.
 #[derive(Default)]
 pub struct Drawing {
     /// The rows of the others that are selected.
-    pub peers: Peers,
+    pub others: Arc<HashMap<Key, Compared>>,
+    /// The options of what is shown.
+    pub options: Options,
     /// The thumbnails of pictures.
     pub thumbnails: Thumbnails,
     /// The picture of a material, once there is one.
     pub ball: Option<egui::TextureId>,
     /// The index of the material that the picture is to show.
     pub ball_of: Option<usize>,
-    /// The edits.
+    /// Changes of what is shown alone.
     pub changes: Vec<Change>,
+    /// The edits of rows.
+    pub edits: Vec<Edit>,
     /// The names of the files of pictures that were opened.
     pub names: Vec<(Weak<Picture>, String)>,
-    /// The place for which a picture is to be opened.
-    pub opens: Option<TexturePlace>,
+    /// The material and its slot for which a picture is to be opened.
+    pub opens: Option<(usize, &'static TextureSlot)>,
 }
 
 /// Rows that are drawn, or read so that an edit of other rows changes these too.
@@ -67,6 +88,8 @@ enum Sheet<'a> {
 pub struct Fields<'a> {
     sheet: Sheet<'a>,
     pub scene: &'a Scene,
+    /// The scene at the time that is shown.
+    pub moment: &'a Moment<'a>,
     /// The object's label.
     pub subject: String,
     /// The animated property that the next row shows.
@@ -80,21 +103,26 @@ impl<'a> Fields<'a> {
     pub fn drawn(
         ui: &'a mut Ui,
         drawing: &'a mut Drawing,
-        scene: &'a Scene,
+        (scene, moment): (&'a Scene, &'a Moment<'a>),
         subject: String,
     ) -> Self {
-        Self::new(Sheet::Drawn(ui, drawing), scene, subject)
+        Self::new(Sheet::Drawn(ui, drawing), (scene, moment), subject)
     }
 
     /// Rows that are not drawn: they are added to those of `peers`.
-    pub fn read(peers: &'a mut Peers, scene: &'a Scene) -> Self {
-        Self::new(Sheet::Read(peers), scene, String::new())
+    pub fn read(peers: &'a mut Peers, (scene, moment): (&'a Scene, &'a Moment<'a>)) -> Self {
+        Self::new(Sheet::Read(peers), (scene, moment), String::new())
     }
 
-    fn new(sheet: Sheet<'a>, scene: &'a Scene, subject: String) -> Self {
+    fn new(
+        sheet: Sheet<'a>,
+        (scene, moment): (&'a Scene, &'a Moment<'a>),
+        subject: String,
+    ) -> Self {
         Self {
             sheet,
             scene,
+            moment,
             subject,
             driver: None,
             part: "",
@@ -106,6 +134,19 @@ impl<'a> Fields<'a> {
         match &mut self.sheet {
             Sheet::Drawn(ui, drawing) => Some(content(ui, drawing)),
             Sheet::Read(_) => None,
+        }
+    }
+
+    /// Whether rows are drawn.
+    pub fn is_drawn(&self) -> bool {
+        matches!(self.sheet, Sheet::Drawn(..))
+    }
+
+    /// The materials of an object, each once.
+    pub fn materials_of(&mut self, object: ObjectRef) -> Vec<usize> {
+        match &mut self.sheet {
+            Sheet::Drawn(..) => objects::materials_of(self.scene, object),
+            Sheet::Read(peers) => peers.materials_of(self.scene, object),
         }
     }
 
@@ -152,46 +193,71 @@ impl<'a> Fields<'a> {
     pub fn field<T: Parts>(
         &mut self,
         label: Label,
-        property: &str,
+        property: &'static str,
         value: T,
         set: impl FnOnce(&mut Scene, T) -> Result<(), EditError> + 'static,
         content: impl FnOnce(&mut Ui, Option<egui::Id>, [bool; 3]) -> Option<Edited<T>>,
     ) {
         let driver = self.driver.take();
-        let mut targets = self.scene.tracks.iter().flat_map(|track| &track.targets);
-        let is_driven = driver.is_some_and(|driver| targets.any(|target| *target == driver));
-        let key = (self.part, property.to_owned());
+        let is_driven = driver.is_some_and(|driver| self.moment.drives(driver));
+        let key = (self.part, property, TypeId::of::<T>());
         let (ui, drawing) = match &mut self.sheet {
             Sheet::Read(peers) => {
                 if !is_driven {
-                    peers.add(key, Peer::new(value, set));
+                    peers.add(key, value, set);
                 }
                 return;
             }
             Sheet::Drawn(ui, drawing) => (ui, drawing),
         };
-        let others: Vec<Peer<T>> = drawing.peers.take(&key);
-        let mut mixed = [false; 3];
-        for other in &others {
-            let differs = value.differs(other.value);
-            (0..3).for_each(|part| mixed[part] |= differs[part]);
-        }
+        let others = drawing.others.get(&key);
+        let mixed = others.map_or([false; 3], |others| others.differs_from(value));
         let edited = row::row(ui, label, |ui, labelled_by| {
             ui.add_enabled_ui(!is_driven, |ui| content(ui, labelled_by, mixed))
                 .inner
         });
         if let Some(edited) = edited {
-            let subject = match others.len() {
-                0 => self.subject.clone(),
-                count => format!("{} items", count + 1),
+            self.edit(key, edited, set);
+        }
+    }
+
+    /// Requests an edit of a row of all that is selected and has it.
+    fn edit<T: Parts>(
+        &mut self,
+        key: Key,
+        edited: Edited<T>,
+        set: impl FnOnce(&mut Scene, T) -> Result<(), EditError> + 'static,
+    ) {
+        let subject = self.subject.clone();
+        self.draw(|_, drawing| {
+            let subject = match drawing.others.get(&key) {
+                None => subject,
+                Some(others) => format!("{} items", others.count + 1),
             };
-            drawing.changes.push(Change {
-                name: format!("change {} of {subject}", property.to_lowercase()),
-                apply: Box::new(move |scene| {
+            drawing.edits.push(Edit {
+                name: format!("change {} of {subject}", key.1.to_lowercase()),
+                key,
+                apply: Box::new(move |scene, peers| {
                     set(scene, edited.value)?;
-                    apply_to(others, edited, scene)
+                    apply_to(peers, edited, scene)
                 }),
             });
+        });
+    }
+
+    /// Changes a property without a row of all that is selected and has it, if `is_asked`.
+    pub fn change_all(
+        &mut self,
+        property: &'static str,
+        is_asked: bool,
+        set: impl FnOnce(&mut Scene) + 'static,
+    ) {
+        let key = (self.part, property, TypeId::of::<bool>());
+        let set = always(move |scene: &mut Scene, _: bool| set(scene));
+        match &mut self.sheet {
+            Sheet::Read(peers) => peers.add(key, true, set),
+            Sheet::Drawn(..) if is_asked => self.edit(key, Edited::whole(true), set),
+            Sheet::Drawn(..) => {}
         }
     }
 
@@ -204,6 +270,10 @@ impl<'a> Fields<'a> {
         set: impl FnOnce(&mut Scene, f64) + 'static,
     ) {
         let (name, tip) = label;
+        // A value that is edited elsewhere may have other limits there.
+        let set = move |scene: &mut Scene, to: f64| {
+            set(scene, to.clamp(limits.least, limits.most));
+        };
         self.field(label, name, value, always(set), |ui, labelled_by, mixed| {
             let width = ui.available_width();
             let name = Name::Label(labelled_by);
@@ -280,25 +350,34 @@ impl<'a> Fields<'a> {
         value: Vec3,
         set: impl FnOnce(&mut Scene, Vec3) + 'static,
     ) {
-        let tip = format!("{tip}\nLinear red, green and blue (Rec. 709), 0 or more.");
+        let tip = match self.is_drawn() {
+            true => format!("{tip}\nLinear red, green and blue (Rec. 709), 0 or more."),
+            false => String::new(),
+        };
         let tip = tip.as_str();
         self.field((label, tip), label, value, always(set), |ui, _, mixed| {
             color_field(ui, (label, tip), value, mixed)
         });
     }
 
-    /// Whether an option of this object is on; `usual` until the user changes it.
+    /// Whether an option of what is shown is on; `usual` until the user changes it.
     pub fn option_value(&mut self, label: &str, usual: bool) -> bool {
-        let id = egui::Id::unique((label, &self.subject));
-        let kept = self.draw(|ui, _| ui.data(|data| data.get_temp(id)));
-        kept.flatten().unwrap_or(usual)
+        let kept = match &self.sheet {
+            Sheet::Drawn(ui, _) => {
+                let id = egui::Id::unique((label, &self.subject));
+                ui.data(|data| data.get_temp(id))
+            }
+            Sheet::Read(peers) => peers.options.get(label).copied(),
+        };
+        kept.unwrap_or(usual)
     }
 
     /// A check box for `value`, kept while the window is open without changing the scene. Returns its new
     /// value when it is clicked.
     pub fn option(&mut self, (label, tip): Label, mut value: bool) -> Option<bool> {
         let id = egui::Id::unique((label, &self.subject));
-        self.draw(|ui, _| {
+        self.draw(|ui, drawing| {
+            drawing.options.insert(label, value);
             row::row(ui, ("", tip), |ui, _| {
                 let response = ui.checkbox(&mut value, label).on_hover_text(tip);
                 response.changed().then(|| {
@@ -326,7 +405,7 @@ impl<'a> Fields<'a> {
     }
 
     /// A row with a choice.
-    pub fn choice<T: Copy + PartialEq + 'static>(
+    pub fn choice<T: Copy + PartialEq + Send + Sync + 'static>(
         &mut self,
         label: Label,
         value: T,
@@ -337,7 +416,7 @@ impl<'a> Fields<'a> {
     }
 
     /// A row with a choice whose change can fail.
-    pub fn try_choice<T: Copy + PartialEq + 'static>(
+    pub fn try_choice<T: Copy + PartialEq + Send + Sync + 'static>(
         &mut self,
         label: Label,
         value: T,
@@ -369,7 +448,7 @@ impl<'a> Fields<'a> {
 
     /// Rows below a heading that folds them.
     pub fn section(&mut self, title: &str, is_open: bool, rows: impl FnOnce(&mut Fields)) {
-        let (scene, subject, part) = (self.scene, self.subject.clone(), self.part);
+        let (scene, subject, part) = ((self.scene, self.moment), self.subject.clone(), self.part);
         match &mut self.sheet {
             Sheet::Read(_) => rows(self),
             Sheet::Drawn(ui, drawing) => row::section(ui, title, is_open, |ui| {
@@ -383,7 +462,7 @@ impl<'a> Fields<'a> {
 
     /// Rows of a part, below a line that folds them. Other parts may have rows with the same labels.
     pub fn part(&mut self, (part, title): (&'static str, &str), rows: impl FnOnce(&mut Fields)) {
-        let (scene, subject) = (self.scene, self.subject.clone());
+        let (scene, subject) = ((self.scene, self.moment), self.subject.clone());
         let before = std::mem::replace(&mut self.part, part);
         match &mut self.sheet {
             Sheet::Read(_) => rows(self),

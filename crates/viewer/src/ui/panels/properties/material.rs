@@ -2,6 +2,7 @@
 
 use super::material_rows::{Part, color, number, with};
 use super::{ball, metallic_roughness, texture_rows};
+use crate::actions::materials::selected_surfaces;
 use crate::model::material_presets::MaterialPreset;
 use crate::model::objects;
 use crate::model::objects::Id;
@@ -88,14 +89,12 @@ fn local_shading(fields: &mut Fields, index: usize, phong: &Phong) {
         );
     }
     let tip = "Set the ambient colour together with the diffuse colour.";
-    if fields.option((FOLLOWS, tip), follows) == Some(true) {
-        fields.change("ambient", move |scene| {
-            if let Some(phong) = Phong::of(&mut scene.materials[index]) {
-                phong.ambient = phong.diffuse;
-            }
-            Ok(())
-        });
-    }
+    let is_asked = fields.option((FOLLOWS, tip), follows) == Some(true);
+    fields.change_all("Ambient", is_asked, move |scene| {
+        if let Some(phong) = Phong::of(&mut scene.materials[index]) {
+            phong.ambient = phong.diffuse;
+        }
+    });
     let tip = "Phong exponent of the highlight, 0 or more. Larger values are sharper.";
     let label = ("Shininess", tip);
     let target = at(P::Shininess);
@@ -208,31 +207,22 @@ pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) 
     if matches!(object, ObjectRef::Light(_)) {
         return;
     }
-    let used = objects::materials_of(scene, object);
+    let used = fields.materials_of(object);
     fields.heading("Material");
-    let options: Vec<(usize, String)> = (0..scene.materials.len())
-        .map(|index| (index, session.label(Id::Material(index))))
-        .collect();
     let now = match used[..] {
         [one] => one,
         _ => usize::MAX,
     };
-    let tip = "The material of the whole object.";
-    let set = move |scene: &mut Scene, to: usize| objects::assign(scene, object, to);
-    fields.try_choice(("Material", tip), now, &options, set);
+    given(fields, session, now);
     if let [one] = used[..] {
         if !fields.is_new_material(one) {
             return;
         }
+        if !fields.is_drawn() {
+            return show(fields, one);
+        }
         let subject = session.label(Id::Material(one));
-        let users = scene
-            .shapes
-            .iter()
-            .filter(|shape| shape.material == one)
-            .count()
-            + (scene.instances.iter())
-                .filter(|i| scene.meshes[i.mesh].materials.first() == Some(&(one as u32)))
-                .count();
+        let users = users(scene, one);
         if users > 1 {
             fields.note(&format!(
                 "{users} objects share {subject}. Editing it changes all of them."
@@ -244,12 +234,12 @@ pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) 
         return;
     }
     for index in used {
-        let label = session.label(Id::Material(index));
         fields.draw(|ui, _| {
             ui.horizontal(|ui| {
                 let size = eframe::egui::vec2(16.0, 18.0);
                 let (rect, _) = ui.allocate_exact_size(size, eframe::egui::Sense::hover());
                 icon::draw(ui, rect, scene, Id::Material(index), true);
+                let label = session.label(Id::Material(index));
                 let link = ui.link(label).on_hover_text("Select this material");
                 if link.clicked() {
                     session.select(vec![Id::Material(index)]);
@@ -257,4 +247,28 @@ pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) 
             })
         });
     }
+}
+
+/// The row of the material of a whole object.
+fn given(fields: &mut Fields, session: &Session, now: usize) {
+    let materials = fields.scene.materials.len();
+    let drawn = fields.draw(|_, _| {
+        let label = |index| (index, session.label(Id::Material(index)));
+        let options: Vec<_> = (0..materials).map(label).collect();
+        (options, selected_surfaces(session))
+    });
+    // The row that is drawn gives the material to all that are selected, so that a mesh is copied once for all of them. The
+    // others give it to none.
+    let (options, takers) = drawn.unwrap_or_default();
+    let tip = "The material of the whole object.";
+    let set = move |scene: &mut Scene, to: usize| objects::assign_all(scene, &takers, to);
+    fields.try_choice(("Material", tip), now, &options, set);
+}
+
+/// Number of objects that have a material.
+fn users(scene: &Scene, material: usize) -> usize {
+    let shapes = scene.shapes.iter().filter(|it| it.material == material);
+    let is_of = |mesh: usize| scene.meshes[mesh].materials.first() == Some(&(material as u32));
+    let instances = scene.instances.iter().filter(|it| is_of(it.mesh));
+    shapes.count() + instances.count()
 }

@@ -5,13 +5,20 @@ use glam::Vec3;
 use glimray_scene::{Bsdf, Material, MetallicRoughness, Phong, Scene, Target};
 
 /// A part of a material that rows edit.
-pub trait Part: Sized {
+pub trait Part: Clone {
     /// The part; `None` if the material is of another kind.
     fn of(material: &mut Material) -> Option<&mut Self>;
+
+    /// The part, to be read.
+    fn of_shared(material: &Material) -> Option<&Self>;
 }
 
 impl Part for Material {
     fn of(material: &mut Material) -> Option<&mut Self> {
+        Some(material)
+    }
+
+    fn of_shared(material: &Material) -> Option<&Self> {
         Some(material)
     }
 }
@@ -23,11 +30,22 @@ impl Part for Phong {
             Bsdf::MetallicRoughness(_) => None,
         }
     }
+
+    fn of_shared(material: &Material) -> Option<&Self> {
+        match &material.bsdf {
+            Bsdf::Phong(phong) => Some(phong),
+            Bsdf::MetallicRoughness(_) => None,
+        }
+    }
 }
 
 impl Part for MetallicRoughness {
     fn of(material: &mut Material) -> Option<&mut Self> {
         material.metallic_roughness_mut()
+    }
+
+    fn of_shared(material: &Material) -> Option<&Self> {
+        material.metallic_roughness()
     }
 }
 
@@ -57,7 +75,7 @@ pub fn edit<P: Part, T>(
 pub fn color<P: Part + 'static>(
     fields: &mut Fields,
     index: usize,
-    label: (&str, &str),
+    label: (&'static str, &str),
     target: Option<Target>,
     slot: fn(&mut P) -> &mut Vec3,
 ) {
@@ -69,11 +87,11 @@ pub fn color_up_to<P: Part + 'static>(
     fields: &mut Fields,
     most: Vec3,
     index: usize,
-    label: (&str, &str),
+    label: (&'static str, &str),
     target: Option<Target>,
     slot: fn(&mut P) -> &mut Vec3,
 ) {
-    if let Some(part) = P::of(&mut fields.scene.materials[index].clone()) {
+    if let Some(part) = &mut P::of_shared(&fields.scene.materials[index]).cloned() {
         let set = edit(index, move |part, to: Vec3| *slot(part) = to.min(most));
         fields
             .may_be_driven_by(target)
@@ -85,12 +103,12 @@ pub fn color_up_to<P: Part + 'static>(
 pub fn number<P: Part + 'static>(
     fields: &mut Fields,
     index: usize,
-    label: (&str, &str),
+    label: (&'static str, &str),
     limits: Limits,
     target: Option<Target>,
     slot: fn(&mut P) -> &mut f32,
 ) {
-    if let Some(part) = P::of(&mut fields.scene.materials[index].clone()) {
+    if let Some(part) = &mut P::of_shared(&fields.scene.materials[index]).cloned() {
         let value = f64::from(*slot(part));
         let set = edit(index, move |part, to: f64| *slot(part) = to as f32);
         fields

@@ -188,7 +188,7 @@ pub fn classical(fields: &mut Fields, index: usize, model: &MetallicRoughness) {
 fn fraction(
     fields: &mut Fields,
     index: usize,
-    label: (&str, &str),
+    label: (&'static str, &str),
     target: Option<Target>,
     slot: fn(&mut MetallicRoughness) -> &mut f32,
 ) {
@@ -199,7 +199,7 @@ fn fraction(
 fn bounded(
     fields: &mut Fields,
     index: usize,
-    label: (&str, &str),
+    label: (&'static str, &str),
     target: Option<Target>,
     slot: fn(&mut MetallicRoughness) -> &mut Vec3,
 ) {

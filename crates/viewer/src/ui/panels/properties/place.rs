@@ -7,24 +7,27 @@ use glam::DVec3;
 use glimray_scene::{CanonicalShape, Geometry, ObjectRef, Scene, Transform};
 
 /// Position, rotation and scale in world space.
-pub fn show(fields: &mut Fields, id: Id, time: f64) {
-    let Some(place) = objects::place(fields.scene, id, time) else {
+pub fn show(fields: &mut Fields, id: Id) {
+    let moment = fields.moment;
+    let Some(place) = moment.place(id) else {
         return;
     };
-    let free = objects::freedom(fields.scene, id);
+    let free = moment.freedom(id);
     let (shown, is_whole) = Transform::of(place);
     fields.heading("Transform");
+    let set_place = moment.set_place(id);
     let asked = move |scene: &mut Scene, now: Transform| {
         // Unedited numbers keep full precision.
         let mut wanted = now.affine();
         if (now.rotate_deg, now.scale) == (shown.rotate_deg, shown.scale) {
             wanted.matrix3 = place.matrix3;
         }
-        objects::set_place(scene, id, wanted, time)
+        set_place(scene, wanted)
     };
     if free.translate {
         let tip = "World-space position in scene units.";
         let label = ("Position", tip);
+        let asked = asked.clone();
         fields.try_vector(label, shown.translate, Limits::LENGTH, move |scene, to| {
             let translate = to;
             asked(scene, Transform { translate, ..shown })
@@ -39,6 +42,7 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
     if free.rotate {
         let tip = "Euler angles about x, then y, then z, in degrees, counter-clockwise.";
         let label = ("Rotation", tip);
+        let asked = asked.clone();
         fields.try_vector(label, shown.rotate_deg, Limits::ANGLE, move |scene, to| {
             let rotate_deg = to;
             asked(
@@ -79,9 +83,10 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
     if !free.translate && !free.rotate && free.scale == Scaling::None {
         fields.note("Its position is animated. Edit its keys or its parent node.");
     }
-    if objects::carrier(fields.scene, id)
-        .and_then(|carrier| objects::shown_carrier(fields.scene, Some(carrier)))
-        .is_some_and(|node| fields.scene.moving_nodes()[node])
+    if fields.is_drawn()
+        && objects::carrier(fields.scene, id)
+            .and_then(|carrier| objects::shown_carrier(fields.scene, Some(carrier)))
+            .is_some_and(|node| fields.scene.moving_nodes()[node])
     {
         fields.note("Its parent is animated. Edits change its transform relative to the parent.");
     }
@@ -99,7 +104,7 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
         if let ObjectRef::Instance(index) = object {
             let mesh = &fields.scene.meshes[fields.scene.instances[index].mesh];
             let (triangles, vertices) = (mesh.triangles.len(), mesh.positions.len());
-            fields.note(&format!("{triangles} triangles, {vertices} vertices"));
+            fields.draw(|ui, _| ui.weak(format!("{triangles} triangles, {vertices} vertices")));
         }
         return;
     };

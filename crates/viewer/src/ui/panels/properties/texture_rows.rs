@@ -1,6 +1,6 @@
 //! The textures of a material: their thumbnails, and how their pictures lie on the surface.
 
-use crate::model::texture_slots::TextureSlot;
+use crate::model::texture_slots::{NORMAL_MAP, TextureSlot};
 use crate::ui::panels::icon::{edge, named, on_screen};
 use crate::ui::panels::properties::fields::{Chosen, Drawing, Edited, Fields, Limits, choose};
 use crate::ui::panels::properties::material_rows::edit;
@@ -26,7 +26,7 @@ pub fn show(fields: &mut Fields, index: usize) {
     let material = &fields.scene.materials[index];
     let is_used = material.texture_indices().next().is_some();
     fields.section("Textures", is_used, |fields| {
-        if is_used && lacks_coordinates(fields.scene, index) {
+        if fields.is_drawn() && is_used && lacks_coordinates(fields.scene, index) {
             fields.note(
                 "A mesh with this material has no texture coordinates: its textures show one colour.",
             );
@@ -37,7 +37,7 @@ pub fn show(fields: &mut Fields, index: usize) {
             if let Some(texture) = texture {
                 placement(fields, slot, texture);
             }
-            if texture.is_some() && texture == material.textures.normal {
+            if texture.is_some() && slot.title == NORMAL_MAP {
                 bumps(fields, index, material);
             }
         }
@@ -66,7 +66,10 @@ fn row(fields: &mut Fields, index: usize, slot: &'static TextureSlot) {
     let scene = fields.scene;
     let now = slot.get(&scene.materials[index]);
     let label = (slot.title, slot.tip);
-    let options = options(fields, scene);
+    let options = match fields.is_drawn() {
+        true => options(fields, scene),
+        false => Vec::new(),
+    };
     let set =
         move |scene: &mut Scene, Chosen(to): Chosen<Option<usize>>| slot.set(scene, index, to);
     let mut opens = false;
@@ -234,7 +237,11 @@ fn placement(fields: &mut Fields, slot: &'static TextureSlot, index: usize) {
         return;
     }
     fields.part((slot.title, PLACEMENT), |fields| {
-        let users = users(scene, index);
+        let users = if fields.is_drawn() {
+            users(scene, index)
+        } else {
+            0
+        };
         if users > 1 {
             fields.note(&format!("{users} rows of materials have this texture."));
         }
@@ -261,12 +268,12 @@ fn users(scene: &Scene, index: usize) -> usize {
 fn transform(fields: &mut Fields, index: usize, placed: UvTransform) {
     let with = |change: fn(&mut UvTransform, DVec2)| {
         move |scene: &mut Scene, to: DVec2| {
-            let texture = &mut scene.textures[index];
+            let texture = &scene.textures[index];
             if let Some(mut placed) = UvTransform::of(texture.pattern_from_space) {
                 change(&mut placed, to);
-                texture.pattern_from_space = placed.pattern_from_uv();
+                let placed = placed.pattern_from_uv();
                 // Tangents follow the texture coordinates.
-                scene.complete_tangents();
+                scene.change_mappings(|scene| scene.textures[index].pattern_from_space = placed);
             }
         }
     };
