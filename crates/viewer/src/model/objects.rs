@@ -11,7 +11,7 @@ pub use frame::{of_geometry, of_light};
 pub use names::{Labels, name, rename, unused_name};
 pub use parent::set_parent;
 pub use place::{Freedom, Scaling, freedom, freedom_if, place, place_in, set_place, set_place_in};
-pub use scope::{bounds, carried_by, hide_others, is_there, same, show_all, subject};
+pub use scope::{bounds, hide_others, is_there, same, show_all, subject};
 pub use several::{common_place, movable, transform};
 
 use glimray_scene::{Node, ObjectRef, Scene, Target, is_numbered};

@@ -79,15 +79,6 @@ fn surfaces(scene: &Scene) -> Vec<ObjectRef> {
     instances.chain(shapes).collect()
 }
 
-/// The meshes, shapes and lights below a node.
-pub fn carried_by(scene: &Scene, node: usize) -> Vec<ObjectRef> {
-    let lights = (0..scene.lights.len()).map(ObjectRef::Light);
-    let objects = surfaces(scene).into_iter().chain(lights);
-    objects
-        .filter(|object| is_carried_by(scene, *object, node))
-        .collect()
-}
-
 fn is_carried_by(scene: &Scene, object: ObjectRef, node: usize) -> bool {
     let own = crate::model::objects::carrier(scene, Id::Object(object));
     std::iter::successors(own, |&index| scene.nodes[index].parent).any(|index| index == node)
