@@ -13,6 +13,7 @@ pub mod histogram;
 pub mod inspector;
 pub mod jobs;
 pub mod layout;
+pub mod neighbours;
 pub mod picture_menu;
 pub mod pixel_values;
 pub mod session;

@@ -4,12 +4,12 @@ pub mod cameras;
 mod closing;
 mod dropped;
 pub mod film;
+pub mod neighbours;
 pub mod parts;
 pub mod pictures;
 mod screenshot;
 pub mod show;
 
-use crate::actions::texturing;
 use crate::model::file_dialog::{self, Reply, Request, ends_in};
 use crate::model::watch::Change;
 use crate::state::files::Broken;
@@ -116,7 +116,7 @@ fn take_back_choice(session: &mut Session) {
 /// and files that are read for it.
 fn left(session: &mut Session) {
     pictures::abandon(session);
-    texturing::abandon(session);
+    abandon_texture(session);
     let files = &mut session.files;
     files.saving = None;
     files.film = None;
@@ -124,7 +124,16 @@ fn left(session: &mut Session) {
     files.asked_model = None;
     files.model = None;
     files.environment = None;
+    files.neighbours.of = None;
     session.picture_menu = None;
+}
+
+/// Opens no picture for a material of a scene that is gone.
+fn abandon_texture(session: &mut Session) {
+    if session.files.texturing.opening.take().is_some() {
+        let why = "The picture was not opened: another scene is shown. Open it again.";
+        session.messages.warn(why.to_owned());
+    }
 }
 
 /// Opens a scene, a folder of scenes, or an environment image.
@@ -189,6 +198,7 @@ pub fn ask(session: &mut Session, ctx: &egui::Context) {
 /// Handles changes of files since the last frame.
 pub fn update(session: &mut Session, ctx: &egui::Context) {
     take_reply(session);
+    neighbours::update(session);
     let drops: Vec<PathBuf> = ctx.input(|input| {
         let files = input.raw.dropped_files.iter();
         files.map(|file| file.path().to_owned()).collect()
@@ -293,7 +303,7 @@ pub fn loaded(session: &mut Session, opened: Opened) {
             session.preferences.opened(&path);
             session.files.candidates.clear();
             session.files.before_choice = None;
-            texturing::abandon(session);
+            abandon_texture(session);
             if !again {
                 session.editing.forget_written();
                 left(session);

@@ -58,14 +58,6 @@ pub fn open(session: &mut Session, place: TexturePlace, path: PathBuf) {
     }
 }
 
-/// Opens no picture for a scene that is gone.
-pub fn abandon(session: &mut Session) {
-    if session.files.texturing.opening.take().is_some() {
-        let why = "The picture was not opened: another scene is shown. Open it again.";
-        session.messages.warn(why.to_owned());
-    }
-}
-
 /// Reads the picture at the path that was typed.
 pub fn open_typed(session: &mut Session, path: PathBuf) {
     if let Some((place, _)) = session.files.texturing.opening.take() {

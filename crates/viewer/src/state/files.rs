@@ -7,6 +7,7 @@ use crate::model::preferences::SavedCamera;
 use crate::model::watch::Watch;
 use crate::state::film::FilmDialog;
 use crate::state::jobs::{JobId, JobOutcome, Jobs};
+use crate::state::neighbours::Neighbours;
 use crate::state::target::Target;
 use crate::state::texturing::{PictureRead, Texturing};
 use crate::worker::still::Still;
@@ -63,6 +64,8 @@ pub struct Files {
     pub(crate) candidates: VecDeque<PathBuf>,
     pub(crate) notice: Option<String>,
     pub(crate) pending: Pending,
+    /// The scenes beside this one in its folder.
+    pub neighbours: Neighbours,
     /// The environment image that is loading.
     pub(crate) environment: Option<(PathBuf, Receiver<PictureRead>)>,
     /// Environment images loaded so far.
@@ -168,6 +171,7 @@ impl Files {
             || self.environment.is_some()
             || self.model.is_some()
             || self.texturing.is_busy()
+            || self.neighbours.rendering.is_some()
             || self.pending.is_posing()
     }
 

@@ -4,7 +4,7 @@ use crate::harness::Window;
 use crate::support::PATIENCE;
 use eframe::egui;
 use egui_kittest::kittest::{Queryable, by};
-use glimray::image::Image;
+use glimray::image::{Image, ScreenImage};
 use glimray::scene::Background;
 use glimray_viewer::actions::files::{self};
 use glimray_viewer::model::file_dialog::{FileDialogs, Reply};
@@ -811,4 +811,47 @@ fn an_empty_window_offers_recent_files_and_the_built_in_scene() {
     assert_eq!(session.scene().expect("a scene").as_ref(), &demo);
     assert_eq!(session.title(), "demo");
     assert!(session.files.broken.is_none());
+}
+
+#[test]
+fn the_scenes_beside_this_one_are_shown_small_in_the_file_menu() {
+    use glimray_viewer::state::neighbours::Preview;
+    let place = Folder::new(&[
+        ("a.toml", &*scene("1")),
+        ("b.toml", &*scene("2")),
+        ("c.toml", "nonsense"),
+    ]);
+    let mut window = place.open("a.toml");
+    window.harness.get_by_label("File").click();
+    window.harness.run_steps(3);
+    let hover = |window: &mut Window, entry: &str| {
+        let entry = window.harness.get(by().label_contains(entry));
+        let at = entry.rect().center();
+        window.harness.hover_at(at);
+        // A tooltip waits until the pointer rests.
+        for _ in 0..60 {
+            window.harness.step();
+        }
+        window.settle();
+        window.harness.run_steps(3);
+    };
+    hover(&mut window, "Next scene in folder");
+    window.harness.get_by_label("Small picture of b.toml");
+    let preview = |window: &Window, name: &str| {
+        let session = window.session();
+        session.files.neighbours.preview(&place.path(name))
+    };
+    let Preview::Picture(small) = preview(&window, "b.toml") else {
+        panic!("there is no picture");
+    };
+    // The picture of the file itself, as far as its size tells.
+    let options = glimray::PictureOptions {
+        size: Some((small.width, small.height)),
+        ..glimray::PictureOptions::default()
+    };
+    let whole = glimray::render_file(place.path("b.toml"), &options).expect("a picture");
+    assert!(ScreenImage::from(&whole) == *small);
+    hover(&mut window, "Previous scene in folder");
+    assert_eq!(preview(&window, "c.toml"), Preview::Missing);
+    assert_eq!(title(&window), "a.toml", "a scene is opened");
 }

@@ -533,3 +533,12 @@ fn a_lamp_that_is_framed_is_not_cut_off() {
     let distance = camera.look_from.distance(dvec3(0.0, 0.0, 4.0));
     assert!(camera.clip.0 < distance, "{} of {distance}", camera.clip.0);
 }
+
+#[test]
+fn the_exposure_stands_beside_the_strength_of_an_environment() {
+    let (_folder, _path, mut window) = open("background = \"studio\"", "");
+    let row = (window.harness).get_by_role_and_label(Role::SpinButton, "View exposure");
+    row.set_value_accesskit(1.0);
+    window.settle();
+    assert_eq!(window.request().tone.exposure_ev, 1.0);
+}

@@ -72,23 +72,10 @@ pub fn step(session: &mut Session, places: isize) {
         session.messages.notify(told);
         return;
     };
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut scenes = scenes_in(folder);
-    let here = scenes
-        .iter()
-        .position(|scene| scene.file_name() == path.file_name());
-    if let Some(here) = here {
-        // From the next one on, wrapping around, without the current one.
-        scenes.rotate_left(here);
-        scenes.remove(0);
-    }
+    let mut scenes = others(&path);
     if places < 0 {
-        scenes.reverse();
+        scenes.make_contiguous().reverse();
     }
-    let mut scenes = VecDeque::from(scenes);
     let Some(next) = scenes.pop_front() else {
         session
             .messages
@@ -98,6 +85,23 @@ pub fn step(session: &mut Session, places: isize) {
     session.files.notice = None;
     session.files.candidates = scenes;
     intend(session, Intent::Open(next));
+}
+
+/// The other scenes in the folder of a scene: from the next one on, round the end.
+pub(super) fn others(path: &Path) -> VecDeque<PathBuf> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut scenes = scenes_in(folder);
+    let here = scenes
+        .iter()
+        .position(|scene| scene.file_name() == path.file_name());
+    if let Some(here) = here {
+        scenes.rotate_left(here);
+        scenes.remove(0);
+    }
+    scenes.into()
 }
 
 /// The scenes directly in a folder, sorted by name.

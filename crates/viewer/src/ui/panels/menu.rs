@@ -3,7 +3,7 @@
 use crate::actions::commands;
 use crate::actions::comparing;
 use crate::actions::files;
-use crate::actions::files::cameras;
+use crate::actions::files::{cameras, neighbours};
 use crate::actions::tools;
 use crate::model::bindings::Action as A;
 use crate::model::document::Document;
@@ -12,9 +12,13 @@ use crate::model::tool::{Tool, ToolMenu};
 use crate::model::view_settings::{ErrorMap, Measure, Sharing};
 use crate::state::dialogs::Dialog;
 use crate::state::layout::{Layout, Panel};
+use crate::state::neighbours::Preview;
+use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::panels::add;
-use eframe::egui::{self, Button, RichText, Ui};
+use eframe::egui::{self, Button, ColorImage, RichText, TextureHandle, Ui};
+use glimray_scene::image::ScreenImage;
+use std::path::Path;
 
 /// Draws the menu bar.
 pub fn menu(ui: &mut Ui, context: &mut PanelContext, layout: &mut Layout) {
@@ -84,11 +88,28 @@ impl Menu<'_, '_> {
         let keys = self.context.session.preferences.bindings.shortcut(action);
         let button = button.shortcut_text(keys);
         let response = self.ui.add_enabled(enabled, button);
-        if response.on_hover_text(action.description()).clicked() {
+        self.perform_if(
+            response.on_hover_text(action.description()).clicked(),
+            action,
+        );
+    }
+
+    fn perform_if(&mut self, is_clicked: bool, action: A) {
+        if is_clicked {
             self.ui.close();
             let ctx = self.ui.ctx().clone();
             commands::perform(action, self.context.session, self.layout, &ctx);
         }
+    }
+
+    /// The entry of a scene beside this one in its folder, with a small picture of the scene as its tooltip.
+    fn neighbour(&mut self, enabled: bool, text: &str, action: A, step: isize) {
+        let session = &mut *self.context.session;
+        let keys = session.preferences.bindings.shortcut(action);
+        let button = Button::new(text).shortcut_text(keys);
+        let response = self.ui.add_enabled(enabled, button);
+        let response = response.on_hover_ui(|ui| preview(ui, session, action, step));
+        self.perform_if(response.clicked(), action);
     }
 
     /// The tools of this menu, the active one with a check mark.
@@ -117,6 +138,45 @@ impl Menu<'_, '_> {
     fn line(&mut self) {
         self.ui.separator();
     }
+}
+
+/// Names a scene beside this one and shows its small picture.
+fn preview(ui: &mut egui::Ui, session: &mut Session, action: A, step: isize) {
+    let Some((path, preview)) = neighbours::neighbour(session, step) else {
+        ui.label(action.description());
+        return;
+    };
+    let name = files::short(&path);
+    ui.label(&name);
+    match preview {
+        Preview::Awaited => {
+            ui.weak("Rendering a small picture …");
+            ui.ctx().request_repaint_after_secs(0.1);
+        }
+        Preview::Missing => {
+            ui.weak("No small picture: the file is large or cannot be rendered");
+        }
+        Preview::Picture(image) => {
+            let texture = small_texture(ui, &path, &image);
+            let picture = egui::Image::from_texture(&texture);
+            ui.add(picture.alt_text(format!("Small picture of {name}")));
+        }
+    }
+}
+
+/// The texture of a small picture, kept until the window is closed.
+fn small_texture(ui: &egui::Ui, path: &Path, image: &ScreenImage) -> TextureHandle {
+    let id = egui::Id::unique(("small picture", path));
+    let known = ui.data(|data| data.get_temp(id));
+    known.unwrap_or_else(|| {
+        let pixels = image.pixels.as_flattened();
+        let size = [image.width as usize, image.height as usize];
+        let image = ColorImage::from_rgba_premultiplied(size, pixels);
+        let options = egui::TextureOptions::LINEAR;
+        let texture = ui.ctx().load_texture("small picture", image, options);
+        ui.data_mut(|data| data.insert_temp(id, texture.clone()));
+        texture
+    })
 }
 
 fn file(menu: &mut Menu) {
@@ -155,8 +215,8 @@ fn file(menu: &mut Menu) {
             }
         });
     });
-    menu.entry_if(has_file, "Next scene in folder", A::OpenNext);
-    menu.entry_if(has_file, "Previous scene in folder", A::OpenPrevious);
+    menu.neighbour(has_file, "Next scene in folder", A::OpenNext, 1);
+    menu.neighbour(has_file, "Previous scene in folder", A::OpenPrevious, -1);
     menu.entry_if(has_scene, "Reload", A::Reload);
     menu.line();
     menu.entry_if(has_scene, "Save scene", A::SaveScene);

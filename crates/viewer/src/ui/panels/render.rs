@@ -58,7 +58,7 @@ pub fn render(ui: &mut Ui, context: &mut PanelContext) {
 /// The settings that are used each day.
 fn everyday(ui: &mut Ui, look: &mut ViewSettings) {
     view_mode::view_mode(ui, look);
-    exposure(ui, look);
+    exposure(ui, "Exposure", look);
     samples(ui, look, |setting| setting.name == SAMPLES);
     let usual = look.scene_tone.denoise;
     let denoise = &mut look.tone.denoise;
@@ -77,11 +77,12 @@ fn everyday(ui: &mut Ui, look: &mut ViewSettings) {
     look.settings.features |= *denoise;
 }
 
-fn exposure(ui: &mut Ui, look: &mut ViewSettings) {
+/// The exposure of the picture.
+pub fn exposure(ui: &mut Ui, label: &str, look: &mut ViewSettings) {
     line(
         ui,
         (
-            "Exposure",
+            label,
             "Exposure in stops, -64 to 64. Each stop doubles the brightness",
         ),
         &mut look.tone.exposure_ev,

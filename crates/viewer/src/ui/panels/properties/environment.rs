@@ -5,6 +5,7 @@ use crate::model::environment::BackgroundLight;
 use crate::state::session::Session;
 use crate::ui::panels::properties::fields::{Fields, Limits};
 use crate::ui::panels::properties::section;
+use crate::ui::panels::render;
 use crate::ui::panels::row::row;
 use crate::ui::sun_dial::SunDial;
 use eframe::egui::{self, Sense, Ui, WidgetInfo, vec2};
@@ -74,6 +75,8 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
                     *rotation = to.to_radians();
                 }
             });
+            // Light that is turned is judged by how bright the picture becomes.
+            fields.draw(|ui, _| render::exposure(ui, "View exposure", &mut session.view));
         }
     }
     fields.heading("Ambient light");
