@@ -14,7 +14,7 @@ pub(super) mod rays;
 pub(super) mod render;
 pub(super) mod row;
 mod setting_rows;
-mod sign;
+pub(crate) mod sign;
 mod status;
 mod time;
 

@@ -1,8 +1,10 @@
 //! Fonts: egui's own, and an installed one for letters that these lack.
 
 use crate::state::session::Session;
+use crate::ui::panels::sign::ICONS;
 use eframe::egui::{self, FontData, FontDefinitions, FontFamily, FontId};
 use glimray_scene::Scene;
+use lucide_icons::LUCIDE_FONT_BYTES;
 use skrifa::{FontRef, MetadataProvider};
 use std::collections::BTreeSet;
 use std::fs;
@@ -35,7 +37,7 @@ const LIKELY: &[&str] = &[
 /// Largest number of fonts that are read.
 const MOST: usize = 64;
 
-/// egui's fonts. Glyphs missing in the text font, such as arrows, come from the monospace font first, which
+/// egui's fonts, and that of the icons. Glyphs missing in the text font, such as arrows, come from the monospace font first, which
 /// fits better than the symbol fonts.
 pub fn own() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
@@ -45,6 +47,10 @@ pub fn own() -> FontDefinitions {
         text.retain(|other| *other != font);
         text.insert(text.len().min(1), font);
     }
+    let icons = FontData::from_static(LUCIDE_FONT_BYTES);
+    fonts.font_data.insert(ICONS.to_owned(), Arc::new(icons));
+    let family = FontFamily::Name(ICONS.into());
+    fonts.families.insert(family, vec![ICONS.to_owned()]);
     fonts
 }
 

@@ -1,10 +1,15 @@
-//! Signs of tools and commands, painted because fonts lack them, and buttons with them.
+//! Signs of tools and commands, which are letters of the font of Lucide's icons, and buttons with them.
 
 use crate::model::tool::Tool;
-use eframe::egui::{self, Button, Color32, Painter, Pos2, Response, Role, Shape, Stroke, Ui, vec2};
+use eframe::egui::{
+    self, Align2, Button, Color32, FontFamily, FontId, Painter, Pos2, Response, Role, Ui, vec2,
+};
+use lucide_icons::Icon;
 
-/// Half the size of a sign, and the side of its button, in points.
-const HALF: f32 = 8.0;
+/// The name of the font of the icons.
+pub const ICONS: &str = "icons";
+/// Size of a sign, and side of its button, in points.
+const SIZE: f32 = 17.0;
 pub const SIDE: f32 = 28.0;
 
 /// The effect of a button.
@@ -26,209 +31,53 @@ pub enum Sign {
     Camera,
     /// The picture shows another part than one of the scene's size.
     Framing,
+    /// Plays the animation.
+    Play,
+    /// Pauses it.
+    Pause,
+    /// Goes to the next frame, or the previous one.
+    Forward,
+    Back,
+    /// Goes to the first frame, or the last one.
+    First,
+    Last,
 }
 
-/// Lines through points from -1 to 1, to the right and downwards.
-type Lines = &'static [&'static [(f32, f32)]];
-
-const SELECT: Lines = &[&[
-    (-0.5, -0.9),
-    (-0.5, 0.6),
-    (-0.1, 0.3),
-    (0.2, 0.9),
-    (0.45, 0.78),
-    (0.15, 0.2),
-    (0.65, 0.15),
-    (-0.5, -0.9),
-]];
-const BOX: Lines = &[
-    &[(-0.9, -0.4), (-0.9, -0.8), (-0.5, -0.8)],
-    &[(-0.1, -0.8), (0.4, -0.8)],
-    &[(0.9, -0.8), (0.9, -0.3)],
-    &[(-0.9, 0.0), (-0.9, 0.6), (-0.4, 0.6)],
-    &[
-        (0.1, -0.2),
-        (0.1, 0.75),
-        (0.35, 0.55),
-        (0.55, 0.95),
-        (0.72, 0.85),
-        (0.55, 0.45),
-        (0.9, 0.4),
-        (0.1, -0.2),
-    ],
-];
-const MOVE: Lines = &[
-    &[(-0.95, 0.0), (0.95, 0.0)],
-    &[(0.0, -0.95), (0.0, 0.95)],
-    &[(-0.65, -0.3), (-0.95, 0.0), (-0.65, 0.3)],
-    &[(0.65, -0.3), (0.95, 0.0), (0.65, 0.3)],
-    &[(-0.3, -0.65), (0.0, -0.95), (0.3, -0.65)],
-    &[(-0.3, 0.65), (0.0, 0.95), (0.3, 0.65)],
-];
-const ROTATE: Lines = &[
-    &[
-        (0.62, -0.52),
-        (0.4, -0.7),
-        (0.0, -0.8),
-        (-0.4, -0.7),
-        (-0.7, -0.4),
-        (-0.8, 0.0),
-        (-0.7, 0.4),
-        (-0.4, 0.7),
-        (0.0, 0.8),
-        (0.4, 0.7),
-        (0.7, 0.4),
-        (0.8, 0.0),
-    ],
-    &[(0.75, -0.95), (0.68, -0.46), (0.2, -0.45)],
-];
-const SCALE: Lines = &[
-    &[
-        (-0.9, 0.1),
-        (-0.1, 0.1),
-        (-0.1, 0.9),
-        (-0.9, 0.9),
-        (-0.9, 0.1),
-    ],
-    &[(0.1, -0.1), (0.9, -0.9)],
-    &[(0.35, -0.9), (0.9, -0.9), (0.9, -0.35)],
-];
-const INSPECT: Lines = &[
-    &[(-0.9, -0.75), (0.0, 0.6), (0.9, -0.75)],
-    &[(0.4, -0.6), (0.9, -0.75), (0.9, -0.25)],
-    &[(-0.9, 0.75), (0.9, 0.75)],
-];
-const MEASURE: Lines = &[
-    &[(-0.9, 0.0), (0.9, 0.0)],
-    &[(-0.9, -0.5), (-0.9, 0.5)],
-    &[(0.9, -0.5), (0.9, 0.5)],
-    &[(-0.3, 0.0), (-0.3, -0.3)],
-    &[(0.3, 0.0), (0.3, -0.3)],
-];
-const REGION: Lines = &[
-    &[(-0.9, -0.3), (-0.9, -0.8), (-0.4, -0.8)],
-    &[(0.4, -0.8), (0.9, -0.8), (0.9, -0.3)],
-    &[(0.9, 0.3), (0.9, 0.8), (0.4, 0.8)],
-    &[(-0.4, 0.8), (-0.9, 0.8), (-0.9, 0.3)],
-];
-const SNAPPING: Lines = &[
-    &[
-        (-0.8, -0.8),
-        (-0.8, 0.1),
-        (-0.55, 0.6),
-        (0.0, 0.85),
-        (0.55, 0.6),
-        (0.8, 0.1),
-        (0.8, -0.8),
-        (0.35, -0.8),
-        (0.35, 0.05),
-        (0.2, 0.3),
-        (0.0, 0.4),
-        (-0.2, 0.3),
-        (-0.35, 0.05),
-        (-0.35, -0.8),
-        (-0.8, -0.8),
-    ],
-    &[(-0.8, -0.4), (-0.35, -0.4)],
-    &[(0.35, -0.4), (0.8, -0.4)],
-];
-const UNDO: Lines = &[
-    &[
-        (-0.85, -0.3),
-        (0.2, -0.3),
-        (0.65, -0.1),
-        (0.8, 0.3),
-        (0.65, 0.65),
-        (0.2, 0.8),
-        (-0.5, 0.8),
-    ],
-    &[(-0.4, -0.8), (-0.9, -0.3), (-0.4, 0.2)],
-];
-const REDO: Lines = &[
-    &[
-        (0.85, -0.3),
-        (-0.2, -0.3),
-        (-0.65, -0.1),
-        (-0.8, 0.3),
-        (-0.65, 0.65),
-        (-0.2, 0.8),
-        (0.5, 0.8),
-    ],
-    &[(0.4, -0.8), (0.9, -0.3), (0.4, 0.2)],
-];
-const OVERLAYS: Lines = &[
-    &[
-        (0.0, -0.8),
-        (0.9, -0.25),
-        (0.0, 0.3),
-        (-0.9, -0.25),
-        (0.0, -0.8),
-    ],
-    &[(-0.9, 0.25), (0.0, 0.8), (0.9, 0.25)],
-];
-const COMPARE: Lines = &[
-    &[
-        (-0.9, -0.7),
-        (0.9, -0.7),
-        (0.9, 0.7),
-        (-0.9, 0.7),
-        (-0.9, -0.7),
-    ],
-    &[(0.0, -0.95), (0.0, 0.95)],
-    &[(0.3, -0.3), (0.6, -0.3)],
-    &[(0.3, 0.3), (0.6, 0.3)],
-];
-const CAMERA: Lines = &[
-    &[
-        (-0.9, -0.55),
-        (0.35, -0.55),
-        (0.35, 0.55),
-        (-0.9, 0.55),
-        (-0.9, -0.55),
-    ],
-    &[(0.35, -0.1), (0.95, -0.45), (0.95, 0.45), (0.35, 0.1)],
-];
-const FRAMING: Lines = &[
-    &[
-        (-0.4, -0.7),
-        (0.4, -0.7),
-        (0.4, 0.7),
-        (-0.4, 0.7),
-        (-0.4, -0.7),
-    ],
-    &[(-0.7, -0.3), (-0.95, 0.0), (-0.7, 0.3)],
-    &[(0.7, -0.3), (0.95, 0.0), (0.7, 0.3)],
-];
-
-fn lines(sign: Sign) -> Lines {
-    match sign {
-        Sign::Tool(tool) => match tool {
-            Tool::Select => SELECT,
-            Tool::Box => BOX,
-            Tool::Move => MOVE,
-            Tool::Rotate => ROTATE,
-            Tool::Scale => SCALE,
-            Tool::Inspect => INSPECT,
-            Tool::Measure => MEASURE,
-            Tool::Region => REGION,
-        },
-        Sign::Undo => UNDO,
-        Sign::Redo => REDO,
-        Sign::Snapping => SNAPPING,
-        Sign::Overlays => OVERLAYS,
-        Sign::Compare => COMPARE,
-        Sign::Camera => CAMERA,
-        Sign::Framing => FRAMING,
+impl Sign {
+    fn icon(self) -> Icon {
+        match self {
+            Self::Tool(tool) => match tool {
+                Tool::Select => Icon::MousePointer2,
+                Tool::Box => Icon::SquareDashedMousePointer,
+                Tool::Move => Icon::Move,
+                Tool::Rotate => Icon::RotateCw,
+                Tool::Scale => Icon::Scaling,
+                Tool::Inspect => Icon::Waypoints,
+                Tool::Measure => Icon::Ruler,
+                Tool::Region => Icon::Crop,
+            },
+            Self::Undo => Icon::Undo2,
+            Self::Redo => Icon::Redo2,
+            Self::Snapping => Icon::Magnet,
+            Self::Overlays => Icon::Layers,
+            Self::Compare => Icon::SquareSplitHorizontal,
+            Self::Camera => Icon::Video,
+            Self::Framing => Icon::Fullscreen,
+            Self::Play => Icon::Play,
+            Self::Pause => Icon::Pause,
+            Self::Forward => Icon::StepForward,
+            Self::Back => Icon::StepBack,
+            Self::First => Icon::SkipBack,
+            Self::Last => Icon::SkipForward,
+        }
     }
 }
 
 /// Draws a sign around a point.
 pub fn draw(painter: &Painter, sign: Sign, center: Pos2, color: Color32) {
-    for points in lines(sign) {
-        let points = points.iter().map(|(x, y)| center + HALF * vec2(*x, *y));
-        let stroke = Stroke::new(1.4, color);
-        painter.add(Shape::line(points.collect(), stroke));
-    }
+    let font = FontId::new(SIZE, FontFamily::Name(ICONS.into()));
+    let letter = char::from(sign.icon());
+    painter.text(center, Align2::CENTER_CENTER, letter, font, color);
 }
 
 /// A square button with a sign, and the name that is read aloud.

@@ -1,16 +1,14 @@
 //! The time panel: playback, timeline, frame rate and shutter.
 
-mod icon;
-
 use crate::model::bindings::Action;
 use crate::model::playback::{MAX_SPEED, Playback};
 use crate::state::files::Part;
 use crate::ui::context::PanelContext;
 use crate::ui::panels::parts;
 use crate::ui::panels::setting_rows::number;
-use eframe::egui::{self, Ui};
+use crate::ui::panels::sign::{self, Sign};
+use eframe::egui::{self, Ui, vec2};
 use glimray_scene::Shutter;
-use icon::{Icon, button};
 
 /// Maximum shutter time, and maximum distance from the frame's time, in frames.
 const MAX_SHUTTER: f64 = 16.0;
@@ -81,23 +79,23 @@ fn timeline(ui: &mut Ui, playback: &mut Playback) {
 
 fn controls(ui: &mut Ui, playback: &mut Playback, tips: &[String; 7]) {
     let [first, back, play, forward, last, repeat, blur] = tips;
-    if button(ui, Icon::First, "First frame", first) {
+    if button(ui, Sign::First, "First frame", first) {
         playback.go_to(0);
     }
-    if button(ui, Icon::Back, "Previous frame", back) {
+    if button(ui, Sign::Back, "Previous frame", back) {
         playback.step(-1);
     }
     let (icon, label) = match playback.is_playing {
-        true => (Icon::Pause, "Pause animation"),
-        false => (Icon::Play, "Play animation"),
+        true => (Sign::Pause, "Pause animation"),
+        false => (Sign::Play, "Play animation"),
     };
     if button(ui, icon, label, play) {
         playback.toggle();
     }
-    if button(ui, Icon::Forward, "Next frame", forward) {
+    if button(ui, Sign::Forward, "Next frame", forward) {
         playback.step(1);
     }
-    if button(ui, Icon::Last, "Last frame", last) {
+    if button(ui, Sign::Last, "Last frame", last) {
         playback.go_to(playback.last_frame());
     }
     ui.separator();
@@ -137,6 +135,16 @@ fn shutter(ui: &mut Ui, shutter: &mut Shutter) {
     let response = number(ui, close, *open..=MAX_SHUTTER, 0.01, " frames");
     name(&response, *close, "Shutter closes");
     response.on_hover_text(format!("When the shutter closes, {tip}"));
+}
+
+/// A button with a sign. Returns whether it was clicked.
+fn button(ui: &mut Ui, sign: Sign, name: &str, tip: &str) -> bool {
+    let response = ui.add(egui::Button::new("").min_size(vec2(28.0, 20.0)));
+    let is_enabled = ui.is_enabled();
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_enabled, name));
+    let color = ui.style().interact(&response).fg_stroke.color;
+    sign::draw(ui.painter(), sign, response.rect.center(), color);
+    response.on_hover_text(tip).clicked()
 }
 
 /// Sets the accessible name of a number without a label.
