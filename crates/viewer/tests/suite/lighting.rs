@@ -512,8 +512,16 @@ fn a_lamp_whose_handle_is_let_go_in_motion_is_changed_once() {
         none,
     );
     // The pointer moves on in the frame in which the button is let go.
-    window.harness.event(egui::Event::PointerMoved(to));
-    let_go(&mut window, to, PointerButton::Primary);
+    let released = egui::Event::PointerButton {
+        pos: to,
+        button: PointerButton::Primary,
+        pressed: false,
+        modifiers: none,
+    };
+    let events = &mut window.harness.input_mut().events;
+    events.extend([egui::Event::PointerMoved(to), released]);
+    window.harness.step();
+    window.settle();
     let LightKind::Sphere { radius, .. } = scene(&window).lights[0].kind else {
         panic!("not a sphere");
     };
