@@ -1,11 +1,12 @@
 //! Walking through the scene: W, A, S, D, Q and E move the camera, the mouse looks, and the wheel changes the speed. Enter and a
 //! click keep the view, Escape and a right click return to the one before.
 
+use crate::model::bindings::wheel_steps;
 use crate::model::camera::Flight;
 use crate::state::session::Session;
 use crate::state::walk::Walk;
 use eframe::egui::viewport::CursorGrab;
-use eframe::egui::{self, Event, InputState, Key, MouseWheelUnit, ViewportCommand};
+use eframe::egui::{self, Event, InputState, Key, ViewportCommand};
 use glam::DVec2;
 
 /// Factor on the speed per step of the wheel.
@@ -104,19 +105,6 @@ fn put_back(ctx: &egui::Context, middle: egui::Pos2) {
     });
     if has_motion && pointer.is_some_and(|at| at.distance(middle) > AWAY) {
         ctx.send_viewport_cmd(ViewportCommand::CursorPosition(middle));
-    }
-}
-
-fn wheel_steps(event: &Event) -> f64 {
-    match event {
-        Event::MouseWheel { unit, delta, .. } => {
-            let steps = match unit {
-                MouseWheelUnit::Point => 1.0 / 50.0,
-                MouseWheelUnit::Line | MouseWheelUnit::Page => 1.0,
-            };
-            steps * f64::from(if delta.y == 0.0 { delta.x } else { delta.y })
-        }
-        _ => 0.0,
     }
 }
 

@@ -19,6 +19,20 @@ const STEPS_OF_LINE: f64 = 1.0;
 const STEPS_OF_POINT: f64 = 1.0 / 50.0;
 const STEPS_OF_PAGE: f64 = 5.0;
 
+/// The steps by which an event turns the wheel: 0 for other events.
+pub fn wheel_steps(event: &Event) -> f64 {
+    let Event::MouseWheel { unit, delta, .. } = event else {
+        return 0.0;
+    };
+    let steps = match unit {
+        MouseWheelUnit::Line => STEPS_OF_LINE,
+        MouseWheelUnit::Point => STEPS_OF_POINT,
+        MouseWheelUnit::Page => STEPS_OF_PAGE,
+    };
+    // With Shift, some systems scroll horizontally.
+    steps * f64::from(if delta.y == 0.0 { delta.x } else { delta.y })
+}
+
 /// A preset and the changes made to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bindings {
@@ -244,21 +258,10 @@ impl Bindings {
 
     fn wheel_by(&self, event: &Event) -> Option<(Action, f64)> {
         match event {
-            Event::MouseWheel {
-                unit,
-                delta,
-                modifiers,
-                ..
-            } => {
+            Event::MouseWheel { modifiers, .. } => {
                 let action = self.action_for(&Trigger::Wheel(Mods::from(*modifiers)))?;
-                let steps = match unit {
-                    MouseWheelUnit::Line => STEPS_OF_LINE,
-                    MouseWheelUnit::Point => STEPS_OF_POINT,
-                    MouseWheelUnit::Page => STEPS_OF_PAGE,
-                };
-                // With Shift, some systems scroll horizontally.
-                let moved = if delta.y == 0.0 { delta.x } else { delta.y };
-                (moved != 0.0).then(|| (action, steps * f64::from(moved)))
+                let steps = wheel_steps(event);
+                (steps != 0.0).then_some((action, steps))
             }
             Event::Zoom(factor) if *factor > 0.0 => {
                 // One step is a factor of 1 / 0.85.
