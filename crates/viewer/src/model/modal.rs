@@ -5,6 +5,20 @@ use super::tool::Tool;
 use eframe::egui::{Key, Pos2, Rect};
 use glam::DAffine3;
 
+/// The keys of the digits, from 0 to 9.
+pub const DIGITS: [Key; 10] = [
+    Key::Num0,
+    Key::Num1,
+    Key::Num2,
+    Key::Num3,
+    Key::Num4,
+    Key::Num5,
+    Key::Num6,
+    Key::Num7,
+    Key::Num8,
+    Key::Num9,
+];
+
 /// A move, rotation or scale started by a key.
 #[derive(Clone, Debug, Default)]
 pub struct Modal {
@@ -81,19 +95,7 @@ impl Modal {
             Key::Period | Key::Comma if !self.typed.contains('.') => self.typed.push('.'),
             Key::Backspace => _ = self.typed.pop(),
             _ => {
-                let digits = [
-                    Key::Num0,
-                    Key::Num1,
-                    Key::Num2,
-                    Key::Num3,
-                    Key::Num4,
-                    Key::Num5,
-                    Key::Num6,
-                    Key::Num7,
-                    Key::Num8,
-                    Key::Num9,
-                ];
-                let digit = digits.into_iter().position(|digit| digit == key);
+                let digit = DIGITS.into_iter().position(|digit| digit == key);
                 self.typed.extend(digit.map(|digit| digit.to_string()));
             }
         }

@@ -3,6 +3,7 @@
 use crate::actions::files::short;
 use crate::model::command_line;
 use crate::model::command_line::Shown;
+use crate::model::modal::DIGITS;
 use crate::model::preferences::{SavedCamera, Thumbnail};
 use crate::state::answer::Answer;
 use crate::state::dialogs::Dialog;
@@ -120,17 +121,7 @@ pub fn picture(session: &mut Session, progress: &Progress) {
 }
 
 /// The keys of the first bookmarks while their dialog is open.
-pub const NUMBERS: [Key; 9] = [
-    Key::Num1,
-    Key::Num2,
-    Key::Num3,
-    Key::Num4,
-    Key::Num5,
-    Key::Num6,
-    Key::Num7,
-    Key::Num8,
-    Key::Num9,
-];
+pub const NUMBERS: &[Key] = DIGITS.split_at(1).1;
 
 /// Goes to a bookmark by its number, if their dialog is open. Returns whether the key is such a number.
 pub fn take_number(session: &mut Session, event: &Event) -> bool {
