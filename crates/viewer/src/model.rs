@@ -28,6 +28,7 @@ pub mod recording;
 pub mod refinement;
 pub mod region;
 pub mod sight;
+pub mod small;
 pub mod snapping;
 pub mod swatch;
 pub mod texture_slots;

@@ -1,7 +1,9 @@
 //! Stills that the picture is compared with: snapshots of it, and reference pictures from files.
 
+use crate::model::small::small;
 use glimray_scene::image::{Image, ScreenImage};
 use glimray_scene::srgb_from_linear;
+use image::RgbaImage;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,7 +11,7 @@ use std::sync::Arc;
 pub const MOST: usize = 8;
 
 /// Largest width and height of a thumbnail, in pixels.
-const THUMBNAIL: (u32, u32) = (80, 60);
+const THUMBNAIL: [u32; 2] = [80, 60];
 
 /// Identifies a still for as long as the window is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -185,42 +187,19 @@ fn encoded(radiance: &Image) -> Image {
     }
 }
 
-/// An opaque picture of at most [`THUMBNAIL`] pixels: means of the pixels in a grid, transparent where there are none.
+/// An opaque picture of at most [`THUMBNAIL`] pixels, transparent where there are none.
 fn thumbnail(picture: &ScreenImage) -> ScreenImage {
-    let (wide, high) = (picture.width.max(1), picture.height.max(1));
-    let share = [
-        THUMBNAIL.0 as f32 / wide as f32,
-        THUMBNAIL.1 as f32 / high as f32,
-    ];
-    let share = share[0].min(share[1]).min(1.0);
-    let [width, height] = [wide, high].map(|side| ((side as f32 * share).round() as u32).max(1));
-    let mut pixels = Vec::with_capacity(width as usize * height as usize);
-    for y in 0..height {
-        for x in 0..width {
-            let span = |at: u32, of: u32, side: u32| {
-                let [from, to] =
-                    [at, at + 1].map(|at| u64::from(at) * u64::from(side) / u64::from(of));
-                from as usize..to as usize
-            };
-            let mut sums = [0_u64; 4];
-            for row in span(y, height, high) {
-                for column in span(x, width, wide) {
-                    let pixel = picture.pixels.get(row * wide as usize + column);
-                    for (sum, value) in sums.iter_mut().zip(pixel.into_iter().flatten()) {
-                        *sum += u64::from(*value);
-                    }
-                }
-            }
-            // Of what is there: a picture in progress has pixels without a sample.
-            let [r, g, b, opacity] = sums;
-            let level = |sum: u64| (sum * 255 / opacity.max(1)).min(255) as u8;
-            pixels.push([level(r), level(g), level(b), u8::from(opacity > 0) * 255]);
-        }
-    }
+    let small = small(picture, THUMBNAIL).unwrap_or_else(|| RgbaImage::new(1, 1));
+    let pixels = small.pixels().map(|pixel| {
+        // Of what is there: a picture in progress has pixels without a sample.
+        let [r, g, b, opacity] = pixel.0.map(u32::from);
+        let level = |sum: u32| (sum * 255 / opacity.max(1)).min(255) as u8;
+        [level(r), level(g), level(b), u8::from(opacity > 0) * 255]
+    });
     ScreenImage {
-        width,
-        height,
-        pixels,
+        width: small.width(),
+        height: small.height(),
+        pixels: pixels.collect(),
     }
 }
 

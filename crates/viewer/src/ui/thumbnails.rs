@@ -1,8 +1,36 @@
 //! Small copies of the pictures of textures, for egui.
 
 use eframe::egui::{self, Color32, ColorImage, Context, TextureHandle, TextureOptions};
+use glimray_scene::image::ScreenImage;
 use glimray_scene::{Picture, SrgbCurve};
 use std::sync::{Arc, Weak};
+
+/// The texture of a small picture that stays as long as the window. `image` makes the picture the first time; without one there
+/// is no texture.
+pub fn kept(
+    ctx: &Context,
+    id: egui::Id,
+    image: impl FnOnce() -> Option<ColorImage>,
+) -> Option<TextureHandle> {
+    let known: Option<Option<TextureHandle>> = ctx.data(|data| data.get_temp(id));
+    known.unwrap_or_else(|| {
+        let load = |image| ctx.load_texture("small picture", image, TextureOptions::LINEAR);
+        let texture = image().map(load);
+        ctx.data_mut(|data| data.insert_temp(id, texture.clone()));
+        texture
+    })
+}
+
+/// Lets go of a texture of [`kept`].
+pub fn forget(ctx: &Context, id: egui::Id) {
+    ctx.data_mut(|data| data.remove::<Option<TextureHandle>>(id));
+}
+
+/// A picture for egui.
+pub fn color_image(picture: &ScreenImage) -> ColorImage {
+    let size = [picture.width as usize, picture.height as usize];
+    ColorImage::from_rgba_premultiplied(size, picture.pixels.as_flattened())
+}
 
 /// Length of the longer side in texels.
 const SIDE: u32 = 64;

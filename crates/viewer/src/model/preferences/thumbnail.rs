@@ -1,8 +1,9 @@
 //! Small pictures of bookmarked views: JPEG files, as hexadecimal digits in the settings.
 
+use crate::model::small::small;
 use glimray_scene::image::ScreenImage;
 use image::codecs::jpeg::JpegEncoder;
-use image::{ImageFormat, RgbImage};
+use image::{DynamicImage, ImageFormat, RgbImage};
 use serde::{Deserialize, Serialize};
 
 /// Most pixels of a side.
@@ -22,20 +23,7 @@ pub struct Thumbnail {
 impl Thumbnail {
     /// The picture, made smaller, in front of black; `None` without pixels.
     pub fn of(picture: &ScreenImage) -> Option<Self> {
-        let bytes = picture
-            .pixels
-            .iter()
-            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]);
-        let whole = RgbImage::from_raw(picture.width, picture.height, bytes.collect())?;
-        let (width, height) = whole.dimensions();
-        if width == 0 || height == 0 {
-            return None;
-        }
-        let scale = (f64::from(THUMBNAIL[0]) / f64::from(width))
-            .min(f64::from(THUMBNAIL[1]) / f64::from(height))
-            .min(1.0);
-        let side = |length: u32| ((f64::from(length) * scale).round() as u32).max(1);
-        let small = image::imageops::thumbnail(&whole, side(width), side(height));
+        let small = DynamicImage::from(small(picture, THUMBNAIL)?).into_rgb8();
         let mut jpeg = Vec::new();
         small
             .write_with_encoder(JpegEncoder::new_with_quality(&mut jpeg, QUALITY))

@@ -3,9 +3,10 @@
 use crate::actions::files::cameras::{self, View};
 use crate::model::preferences::{THUMBNAIL, Thumbnail};
 use crate::state::session::Session;
+use crate::ui::thumbnails;
 use eframe::egui::{
-    self, Align2, Color32, ColorImage, FontId, Rect, Response, Sense, TextEdit, TextureHandle,
-    TextureOptions, Ui, WidgetInfo, pos2, vec2,
+    self, Align2, Color32, ColorImage, FontId, Rect, Response, Sense, TextEdit, TextureHandle, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 /// Size of the small pictures, in points.
@@ -117,14 +118,9 @@ fn picture(ui: &mut Ui, view: &View, index: usize) -> Response {
 /// The texture of a small picture, which stays as long as the window; `None` if its file is damaged.
 fn texture(ctx: &egui::Context, thumbnail: &Thumbnail) -> Option<TextureHandle> {
     let id = egui::Id::unique(("bookmark", thumbnail));
-    let known: Option<Option<TextureHandle>> = ctx.data(|data| data.get_temp(id));
-    known.unwrap_or_else(|| {
-        let texture = thumbnail.pixels().map(|pixels| {
-            let size = [pixels.width() as usize, pixels.height() as usize];
-            let image = ColorImage::from_rgb(size, pixels.as_raw());
-            ctx.load_texture("bookmark", image, TextureOptions::LINEAR)
-        });
-        ctx.data_mut(|data| data.insert_temp(id, texture.clone()));
-        texture
+    thumbnails::kept(ctx, id, || {
+        let pixels = thumbnail.pixels()?;
+        let size = [pixels.width() as usize, pixels.height() as usize];
+        Some(ColorImage::from_rgb(size, pixels.as_raw()))
     })
 }

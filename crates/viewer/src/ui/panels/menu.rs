@@ -16,9 +16,8 @@ use crate::state::neighbours::Preview;
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::panels::add;
-use eframe::egui::{self, Button, ColorImage, RichText, TextureHandle, Ui};
-use glimray_scene::image::ScreenImage;
-use std::path::Path;
+use crate::ui::thumbnails::{self, color_image};
+use eframe::egui::{self, Button, RichText, Ui};
 
 /// Draws the menu bar.
 pub fn menu(ui: &mut Ui, context: &mut PanelContext, layout: &mut Layout) {
@@ -157,26 +156,14 @@ fn preview(ui: &mut egui::Ui, session: &mut Session, action: A, step: isize) {
             ui.weak("No small picture: the file is large or cannot be rendered");
         }
         Preview::Picture(image) => {
-            let texture = small_texture(ui, &path, &image);
-            let picture = egui::Image::from_texture(&texture);
-            ui.add(picture.alt_text(format!("Small picture of {name}")));
+            let id = egui::Id::unique(("small picture", &path));
+            let texture = thumbnails::kept(ui.ctx(), id, || Some(color_image(&image)));
+            if let Some(texture) = texture {
+                let picture = egui::Image::from_texture(&texture);
+                ui.add(picture.alt_text(format!("Small picture of {name}")));
+            }
         }
     }
-}
-
-/// The texture of a small picture, kept until the window is closed.
-fn small_texture(ui: &egui::Ui, path: &Path, image: &ScreenImage) -> TextureHandle {
-    let id = egui::Id::unique(("small picture", path));
-    let known = ui.data(|data| data.get_temp(id));
-    known.unwrap_or_else(|| {
-        let pixels = image.pixels.as_flattened();
-        let size = [image.width as usize, image.height as usize];
-        let image = ColorImage::from_rgba_premultiplied(size, pixels);
-        let options = egui::TextureOptions::LINEAR;
-        let texture = ui.ctx().load_texture("small picture", image, options);
-        ui.data_mut(|data| data.insert_temp(id, texture.clone()));
-        texture
-    })
 }
 
 fn file(menu: &mut Menu) {

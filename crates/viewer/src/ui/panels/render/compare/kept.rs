@@ -7,9 +7,9 @@ use crate::model::gallery::{Still, StillId};
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::panels::icon;
+use crate::ui::thumbnails::{self, color_image};
 use eframe::egui::{
-    self, Align2, Color32, ColorImage, FontId, Key, Layout, Rect, Sense, TextEdit, TextureHandle,
-    Ui, WidgetInfo, pos2, vec2,
+    self, Align2, Color32, FontId, Key, Layout, Rect, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
 /// Height of a line, widths of the number and the thumbnail, and the space between them, in points.
@@ -97,7 +97,7 @@ fn buttons(ui: &mut Ui, session: &mut Session, still: &Still) {
     icon::named(&button, &format!("Remove: {name}"));
     if button.clicked() {
         comparing::remove(session, still.id);
-        ui.data_mut(|data| data.remove::<TextureHandle>(texture_of(still.id)));
+        thumbnails::forget(ui.ctx(), texture_of(still.id));
     }
     let button = ui.button("✏").on_hover_text("Rename this picture");
     icon::named(&button, &format!("Rename: {name}"));
@@ -148,21 +148,10 @@ fn texture_of(still: StillId) -> egui::Id {
 
 /// Draws the small picture, in the middle of `space`.
 fn thumbnail(ui: &Ui, still: &Still, space: Rect) {
-    let id = texture_of(still.id);
-    let known: Option<TextureHandle> = ui.data(|data| data.get_temp(id));
-    let texture = known.unwrap_or_else(|| {
-        let small = &still.thumbnail;
-        let pixels = small.pixels.iter();
-        let color = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_premultiplied(r, g, b, a);
-        let image = ColorImage::new(
-            [small.width as usize, small.height as usize],
-            pixels.map(color).collect(),
-        );
-        let options = egui::TextureOptions::LINEAR;
-        let texture = ui.ctx().load_texture("kept picture", image, options);
-        ui.data_mut(|data| data.insert_temp(id, texture.clone()));
-        texture
-    });
+    let small = || Some(color_image(&still.thumbnail));
+    let Some(texture) = thumbnails::kept(ui.ctx(), texture_of(still.id), small) else {
+        return;
+    };
     let size = texture.size_vec2();
     let share = (space.size() / size).min_elem();
     let rect = Rect::from_center_size(space.center(), size * share);
