@@ -8,7 +8,7 @@ use crate::model::objects::{self, Id};
 use crate::model::tool::{BoxDrag, BoxMode, Tool};
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;
-use crate::state::sight::Subject;
+use crate::state::sight::Boxed;
 use eframe::egui::{self, Modifiers, PointerButton};
 use glam::{DVec2, DVec3};
 use glimray_scene::{Geometry, LightKind, ObjectRef, Scene};
@@ -30,9 +30,11 @@ pub fn drag(session: &mut Session, response: &egui::Response, viewport: Viewport
         let drag = *drag;
         if !response.dragged() {
             session.tool_state.frame = None;
-            let ends = [drag.from, drag.to].map(|point| viewport.position(point));
-            session.tool_state.boxed = Some((ends, drag.mode));
-            session.sight.boxed = sight::subject(session);
+            session.sight.boxed = Some(Boxed {
+                corners: [drag.from, drag.to].map(|point| viewport.position(point)),
+                mode: drag.mode,
+                subject: sight::subject(session),
+            });
             go_on(session);
             // The answer may come in a later frame.
             response.ctx.request_repaint();
@@ -69,28 +71,26 @@ fn mode(modifiers: Modifiers) -> BoxMode {
 
 /// Selects what is in the rectangle that was drawn last, once it is known what the pixels show. Another view drops it.
 pub fn go_on(session: &mut Session) {
-    if session.tool_state.boxed.is_none() {
-        session.sight.boxed = None;
+    let Some(boxed) = &session.sight.boxed else {
         return;
-    }
-    let now = sight::subject(session);
-    let is_same = |drawn: &Subject| now.as_ref().is_some_and(|now| drawn.looks_like(now));
-    if !session.sight.boxed.as_ref().is_some_and(is_same) {
-        session.tool_state.boxed = None;
+    };
+    let drawn_in = boxed.subject.as_ref().zip(sight::subject(session));
+    if !drawn_in.is_some_and(|(drawn, now)| drawn.looks_like(&now)) {
         session.sight.boxed = None;
         return (session.messages)
             .notify("The view has changed, so the box selects nothing. Draw it again");
     }
-    let (Some((ends, mode)), Some(seen)) = (session.tool_state.boxed, sight::current(session))
+    let (Some(seen), Some(scene)) = (sight::current(session), session.scene().cloned()) else {
+        return;
+    };
+    let Some(Boxed {
+        corners: [a, b],
+        mode,
+        ..
+    }) = session.sight.boxed.take()
     else {
         return;
     };
-    session.tool_state.boxed = None;
-    session.sight.boxed = None;
-    let Some(scene) = session.scene().cloned() else {
-        return;
-    };
-    let [a, b] = ends;
     let mut found = seen.sight.objects_in(a, b);
     // A ground without end lies behind nearly everything.
     let is_plane = |object: &ObjectRef| {

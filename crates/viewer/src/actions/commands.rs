@@ -352,7 +352,7 @@ fn leave(session: &mut Session) {
         return;
     }
     let frame = session.tool_state.frame.take().is_some();
-    if session.tool_state.boxed.take().is_some() || frame {
+    if session.sight.boxed.take().is_some() || frame {
         return;
     }
     if session.tool_state.focuses.take().is_some() {

@@ -42,7 +42,8 @@ fn is_wanted(session: &Session) -> bool {
     let is_drawn = overlays.grid || overlays.has_edges();
     let is_outlined = overlays.outline && session.selection.is_some();
     session.viewport.is_some()
-        && (session.tool_state.waits_for_sight()
+        && (session.tool_state.frame.is_some()
+            || session.sight.boxed.is_some()
             || matches!(session.tool, Tool::Box | Tool::Measure)
             || session.shows_overlays && (is_drawn || is_outlined))
 }
@@ -82,12 +83,10 @@ pub fn take(session: &mut Session, seen: Option<Box<Seen>>) {
     }
 }
 
-/// What the pixels show, if that is known of the picture as it is.
+/// The objects and distances of the pixels, if they are known for the picture as it is now.
 pub fn current(session: &Session) -> Option<Arc<Seen>> {
     let seen = session.sight.latest.as_ref()?;
-    let editing = &session.editing;
-    let is_held = editing.grip.is_some() || editing.lamp.is_some() || editing.section.is_some();
-    let is_current = !is_held && seen.subject.looks_like(&subject(session)?);
+    let is_current = !session.editing.is_held() && seen.subject.looks_like(&subject(session)?);
     is_current.then(|| seen.clone())
 }
 

@@ -6,7 +6,7 @@
 
 use super::region;
 use eframe::egui::Pos2;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 /// A row of the table of tools.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,8 +141,6 @@ pub struct ToolState {
     pub kept: Vec<[DVec3; 2]>,
     /// The rectangle that is being drawn.
     pub frame: Option<BoxDrag>,
-    /// The corners of the rectangle that was drawn, in pixels of the picture, until it is known what they show.
-    pub boxed: Option<([DVec2; 2], BoxMode)>,
     /// The index of the camera whose focus the next click sets.
     pub focuses: Option<usize>,
 }
@@ -174,11 +172,6 @@ impl ToolState {
         }
     }
 
-    /// Whether it must become known what the pixels of the picture show.
-    pub fn waits_for_sight(&self) -> bool {
-        self.frame.is_some() || self.boxed.is_some()
-    }
-
     /// Both measured points; `None` before there are two.
     pub fn measured_line(&self) -> Option<[DVec3; 2]> {
         self.measured[..].try_into().ok()
@@ -192,7 +185,7 @@ pub struct BoxDrag {
     pub from: Pos2,
     /// Where the pointer is.
     pub to: Pos2,
-    /// What it does with the selection.
+    /// How the objects in the rectangle change the selection.
     pub mode: BoxMode,
 }
 

@@ -1,9 +1,10 @@
-//! What the pixels of the picture show, and what is drawn from that.
+//! The objects and distances that the pixels of the picture show, and the shapes that are drawn from them.
 
 use crate::model::edges::{EdgeCache, SeenEdges};
 use crate::model::grid::Grid;
 use crate::model::objects::Id;
 use crate::model::sight::Sight;
+use crate::model::tool::BoxMode;
 use crate::model::viewport::Viewport;
 use eframe::egui::{Rect, Shape};
 use glam::{DVec2, DVec3};
@@ -71,9 +72,9 @@ pub struct Seen {
 /// The silhouettes of the selection.
 #[derive(Debug, Default)]
 pub struct Silhouettes {
-    /// Those of the object that was selected last, in pixels of the picture.
+    /// The silhouettes of the object that was selected last, in pixels of the picture.
     pub lead: Vec<Vec<DVec2>>,
-    /// Those of the others.
+    /// The silhouettes of the other selected objects.
     pub others: Vec<Vec<DVec2>>,
     /// Selected objects without a visible pixel.
     pub hidden: Vec<Id>,
@@ -83,7 +84,7 @@ pub struct Silhouettes {
 pub(crate) struct Drawn<T> {
     /// The parts of the screen that the picture takes, and that can be seen.
     pub place: [Rect; 2],
-    /// What they show.
+    /// The things that the shapes show.
     pub of: T,
     /// The shapes.
     pub shapes: Vec<Shape>,
@@ -99,6 +100,16 @@ impl<T> Drawn<T> {
         let known = known.as_ref()?;
         (known.place == place && is_same(&known.of)).then(|| known.shapes.clone())
     }
+}
+
+/// A rectangle of the picture that waits to be applied.
+pub struct Boxed {
+    /// Opposite corners, in pixels of the picture.
+    pub corners: [DVec2; 2],
+    /// How the objects in it change the selection.
+    pub mode: BoxMode,
+    /// The picture in which it was drawn.
+    pub subject: Option<Subject>,
 }
 
 /// The vertex to which a click snaps, if there is one, and what it depends on.
@@ -124,8 +135,8 @@ pub struct SightState {
     pub(crate) grid: Option<Drawn<(Arc<Seen>, Grid)>>,
     /// The drawn silhouettes.
     pub(crate) outlined: Option<Drawn<Arc<Silhouettes>>>,
-    /// The picture in which the rectangle was drawn that waits to be applied.
-    pub(crate) boxed: Option<Subject>,
+    /// The rectangle that was drawn last, until it is known what its pixels show.
+    pub boxed: Option<Boxed>,
     /// The vertex that was found last for the pixel under the pointer.
     pub(crate) snapped: RefCell<Option<Snapped>>,
     /// The silhouettes of a selection in the last answer.

@@ -10,16 +10,7 @@ use glimray_viewer::model::tool::Tool;
 /// Drags from one point of the screen to another while these keys are held.
 fn drag(window: &mut Window, [from, to]: [Pos2; 2], held: Modifiers) {
     window.harness.event(Event::ModifiersChanged(held));
-    window.harness.hover_at(from);
-    window.harness.step();
-    window.harness.drag_at(from);
-    window.harness.step();
-    for share in [0.4, 1.0] {
-        window.harness.hover_at(from + (to - from) * share);
-        window.harness.step();
-    }
-    window.harness.drop_at(to);
-    window.harness.step();
+    super::edit::drag(window, from, to);
     (window.harness).event(Event::ModifiersChanged(Modifiers::NONE));
     window.settle();
 }
@@ -142,12 +133,12 @@ fn a_rectangle_that_waits_is_dropped_when_the_view_changes() {
         modifiers: Modifiers::NONE,
     });
     window.harness.step();
-    assert!(window.session().tool_state.boxed.is_some());
+    assert!(window.session().sight.boxed.is_some());
     let mut controller = window.session().controller.clone().expect("a camera");
     controller.orbit(glam::dvec2(40.0, 0.0), glam::dvec2(400.0, 300.0));
     window.session().controller = Some(controller);
     window.settle();
-    assert!(window.session().tool_state.boxed.is_none());
+    assert!(window.session().sight.boxed.is_none());
     assert_eq!(window.session().selected(), [BLUE]);
     // Without a change it selects as soon as the answer comes.
     let [from, to] = around(&window, LEFT);

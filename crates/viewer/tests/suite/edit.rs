@@ -88,7 +88,8 @@ pub(super) fn on_screen(window: &Window, point: DVec3) -> Pos2 {
     viewport.point(at.expect("in front of the camera"))
 }
 
-fn drag(window: &mut Window, from: Pos2, to: Pos2) {
+/// Drags with the left button from one point of the screen to another.
+pub(super) fn drag(window: &mut Window, from: Pos2, to: Pos2) {
     window.harness.hover_at(from);
     window.harness.step();
     window.harness.drag_at(from);

@@ -168,6 +168,7 @@ impl Session {
         }
         self.histogram.forget();
         self.tool_state = ToolState::default();
+        self.sight.boxed = None;
         let inspector = std::mem::take(&mut self.inspector);
         // A pending export belongs to rays of the previous scene.
         self.inspector.export = inspector.export;
