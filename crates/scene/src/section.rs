@@ -14,6 +14,11 @@ pub struct Section {
 }
 
 impl Section {
+    /// The point of the plane that is nearest to this one.
+    pub fn nearest_to(&self, point: DVec3) -> DVec3 {
+        point + self.normal * (self.offset - self.normal.dot(point))
+    }
+
     /// Whether a point in world space is cut away.
     pub fn cuts(&self, point: DVec3) -> bool {
         self.normal.dot(point) > self.offset

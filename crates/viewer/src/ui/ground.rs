@@ -25,14 +25,7 @@ pub fn draw(session: &mut Session, painter: &Painter, viewport: Viewport) {
     let Some(camera) = session.camera().filter(|_| session.shows_overlays) else {
         return;
     };
-    let view = WorldPainter {
-        painter,
-        viewport,
-        eye: Eye {
-            camera: &camera,
-            size: viewport.extent(),
-        },
-    };
+    let view = WorldPainter::new(painter, viewport, &camera);
     if session.overlays.grid
         && let Some(grid) = grid(session, &view)
     {

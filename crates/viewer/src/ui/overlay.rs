@@ -4,7 +4,7 @@ mod lamp;
 
 use crate::actions::editing;
 use crate::model::bindings::Action;
-use crate::model::handles::{Eye, Grip, Handles, LENGTH, Part};
+use crate::model::handles::{Grip, Handles, LENGTH, Part};
 use crate::model::modal::Modal;
 use crate::model::objects;
 use crate::model::objects::Id;
@@ -52,16 +52,8 @@ pub fn overlay(
         let_go(session);
         return false;
     }
-    let eye = Eye {
-        camera: &camera,
-        size: viewport.extent(),
-    };
-    let time = session.playback.time;
-    let view = WorldPainter {
-        painter,
-        viewport,
-        eye,
-    };
+    let view = WorldPainter::new(painter, viewport, &camera);
+    let (eye, time) = (view.eye, session.playback.time);
     if session.overlays.outline {
         let marks = silhouette::draw(session, &view, &selected);
         let firm = outlines(session, &scene, &marks.firm, &view);

@@ -1,6 +1,6 @@
 //! The handle of the section plane in the picture: an arrow moves the plane, two rings tilt it.
 
-use crate::model::handles::{Eye, Grip, Handles, LENGTH, Part};
+use crate::model::handles::{Grip, Handles, LENGTH, Part};
 use crate::model::tool::Tool;
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;
@@ -27,8 +27,7 @@ struct Gizmo {
 impl Gizmo {
     /// The handle of a plane at the point of it that is nearest to `middle`.
     fn new(section: Section, middle: DVec3, reach: f64) -> Self {
-        let Section { normal, offset } = section;
-        let origin = middle + normal * (offset - normal.dot(middle));
+        let (origin, normal) = (section.nearest_to(middle), section.normal);
         let (u, v) = normal.any_orthonormal_pair();
         let handles = |tool, parts, reach| Handles {
             tool,
@@ -96,19 +95,12 @@ pub fn handle(
         session.editing.section = None;
         return false;
     };
-    let eye = Eye {
-        camera: &camera,
-        size: viewport.extent(),
-    };
-    let view = WorldPainter {
-        painter,
-        viewport,
-        eye,
-    };
+    let view = WorldPainter::new(painter, viewport, &camera);
+    let eye = view.eye;
     let middle = bounds.0.midpoint(bounds.1);
     let half = 0.5 * bounds.0.distance(bounds.1);
     let length = viewport.length(vec2(LENGTH, 0.0)).x;
-    let origin = middle + section.normal * (section.offset - section.normal.dot(middle));
+    let origin = section.nearest_to(middle);
     if eye.project(origin).is_none() {
         session.editing.section = None;
         return false;

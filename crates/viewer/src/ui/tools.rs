@@ -2,7 +2,6 @@
 
 use crate::actions::{lighting, measuring};
 use crate::model::environment::BackgroundLight;
-use crate::model::handles::Eye;
 use crate::model::tool::{BoxMode, Tool};
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;
@@ -38,22 +37,15 @@ pub fn draw(painter: &Painter, session: &Session, viewport: Viewport) {
 
 /// While the light of the background is being turned, shows its numbers beside the pointer, and where the sun stands.
 fn turned_light(painter: &Painter, session: &Session, viewport: Viewport) {
+    if !lighting::is_turning(session) {
+        return;
+    }
     let light = session.scene().and_then(|scene| BackgroundLight::of(scene));
     let pointer = painter.ctx().pointer_latest_pos();
     let (Some(light), Some(pointer), Some(camera)) = (light, pointer, session.camera()) else {
         return;
     };
-    if !lighting::is_turning(session) {
-        return;
-    }
-    let view = WorldPainter {
-        painter,
-        viewport,
-        eye: Eye {
-            camera: &camera,
-            size: viewport.extent(),
-        },
-    };
+    let view = WorldPainter::new(painter, viewport, &camera);
     let text = view.text(pointer + vec2(18.0, -18.0), &light.label());
     if let Some(sun) = light.sun_deg() {
         let above = text.left_top() + vec2(DIAL, -DIAL - 6.0);
@@ -71,14 +63,7 @@ fn measurement(painter: &Painter, session: &Session, viewport: Viewport) {
     let Some(camera) = session.camera() else {
         return;
     };
-    let view = WorldPainter {
-        painter,
-        viewport,
-        eye: Eye {
-            camera: &camera,
-            size: viewport.extent(),
-        },
-    };
+    let view = WorldPainter::new(painter, viewport, &camera);
     let state = &session.tool_state;
     let lines = state.measurements();
     view.lines(&lines, MEASURE);

@@ -4,6 +4,7 @@ use crate::model::handles::Eye;
 use crate::model::viewport::Viewport;
 use eframe::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Stroke};
 use glam::DVec3;
+use glimray_scene::Camera;
 
 /// The dark border of lines, which keeps them visible on a bright picture.
 pub const SHADE: Color32 = Color32::from_black_alpha(110);
@@ -18,7 +19,19 @@ pub struct WorldPainter<'a> {
     pub eye: Eye<'a>,
 }
 
-impl WorldPainter<'_> {
+impl<'a> WorldPainter<'a> {
+    /// Draws into the picture that the camera sees.
+    pub fn new(painter: &'a Painter, viewport: Viewport, camera: &'a Camera) -> Self {
+        Self {
+            painter,
+            viewport,
+            eye: Eye {
+                camera,
+                size: viewport.extent(),
+            },
+        }
+    }
+
     /// Draws lines in world space.
     pub fn lines(&self, lines: &[[DVec3; 2]], color: Color32) {
         for ends in lines {
