@@ -23,6 +23,8 @@ const FOV_Y: f64 = 0.38;
 /// Makes the scenes of balls. A scene stays the same object while it shows the same.
 #[derive(Default)]
 pub struct BallMaker {
+    /// The scene and the index of the material that were asked for last.
+    of: Option<(Weak<Scene>, usize)>,
     scene: Option<Arc<Scene>>,
     /// Small copies of pictures.
     small: Vec<(Weak<Picture>, Arc<Picture>)>,
@@ -30,7 +32,13 @@ pub struct BallMaker {
 
 impl BallMaker {
     /// A ball of the material with this index in `scene`.
-    pub fn scene(&mut self, scene: &Scene, index: usize) -> Arc<Scene> {
+    pub fn scene(&mut self, scene: &Arc<Scene>, index: usize) -> Arc<Scene> {
+        let of = (Arc::downgrade(scene), index);
+        let was_asked = |known: &(Weak<Scene>, usize)| known.0.ptr_eq(&of.0) && known.1 == index;
+        if let (true, Some(known)) = (self.of.as_ref().is_some_and(was_asked), &self.scene) {
+            return known.clone();
+        }
+        self.of = Some(of);
         let made = self.make(scene, &scene.materials[index]);
         let is_same = |before: &&Arc<Scene>| {
             let pictures = before.pictures.iter().zip(&made.pictures);
