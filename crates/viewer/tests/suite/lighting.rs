@@ -415,13 +415,7 @@ fn the_edges_of_area_lamps_follow_the_pointer() {
     let (_folder, _, mut window) = open("ambient = [0.1, 0.1, 0.1]", sphere);
     select(&mut window);
     let center = dvec3(0.0, 2.0, 0.0);
-    // At the left or the right of its middle.
-    let mut sides = [DVec3::X, DVec3::NEG_X].into_iter();
-    let is_there = |side: &DVec3| {
-        let at = on_screen(&window, center + 0.5 * *side);
-        grabs(&mut window, at)
-    };
-    let side = sides.find(is_there).expect("a handle");
+    let side = side_of_handle(&mut window, center);
     let (from, to) = (
         on_screen(&window, center + 0.5 * side),
         on_screen(&window, center + 1.25 * side),
@@ -489,18 +483,23 @@ fn a_lamp_before_the_scene_does_not_hide_it_from_views_along_axes() {
     }
 }
 
+/// The direction from the middle of a ball of radius 0.5 to its handle, at the left or the right.
+fn side_of_handle(window: &mut Window, center: DVec3) -> DVec3 {
+    let mut sides = [DVec3::X, DVec3::NEG_X].into_iter();
+    let is_there = |side: &DVec3| {
+        let at = on_screen(window, center + 0.5 * *side);
+        grabs(window, at)
+    };
+    sides.find(is_there).expect("a handle")
+}
+
 #[test]
 fn a_lamp_whose_handle_is_let_go_in_motion_is_changed_once() {
     let sphere = "[[lights]]\nsphere = { center = [0, 2, 0], radius = 0.5, color = [9, 9, 9] }\n";
     let (_folder, _path, mut window) = open("ambient = [0.1, 0.1, 0.1]", sphere);
     select(&mut window);
     let center = dvec3(0.0, 2.0, 0.0);
-    let mut sides = [DVec3::X, DVec3::NEG_X].into_iter();
-    let is_there = |side: &DVec3| {
-        let at = on_screen(&window, center + 0.5 * *side);
-        grabs(&mut window, at)
-    };
-    let side = sides.find(is_there).expect("a handle");
+    let side = side_of_handle(&mut window, center);
     let from = on_screen(&window, center + 0.5 * side);
     let to = on_screen(&window, center + 1.25 * side);
     let none = Modifiers::NONE;

@@ -1,8 +1,8 @@
 //! The section plane in the properties of the scene.
 
-use super::edit::{file, on_screen, open};
+use super::edit::{drag, file, on_screen, open};
 use crate::harness::Window;
-use eframe::egui::{Key, Modifiers, Pos2, Vec2, vec2};
+use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::{DVec3, dvec3};
 use glimray::render::Tone;
@@ -45,20 +45,6 @@ fn a_scene_is_cut_open_and_turned_by_hand_and_closed_again_by_undo() {
     assert!(whole.pixels == window.image(Tone::LINEAR).pixels);
 }
 
-/// Drags from a point of the picture by so many points of the screen.
-fn drag(window: &mut Window, from: Pos2, by: Vec2) {
-    window.harness.hover_at(from);
-    window.harness.step();
-    window.harness.drag_at(from);
-    window.harness.step();
-    for share in [0.4, 1.0] {
-        window.harness.hover_at(from + by * share);
-        window.harness.step();
-    }
-    window.harness.drop_at(from + by);
-    window.settle();
-}
-
 #[test]
 fn the_plane_is_moved_by_its_arrow_and_tilted_by_its_rings_in_the_picture() {
     let (_folder, path) = file();
@@ -77,7 +63,8 @@ fn the_plane_is_moved_by_its_arrow_and_tilted_by_its_rings_in_the_picture() {
     let before = steps(&window).expect("a document");
     // The arrow goes to the right from where the plane is nearest to the middle of the scene.
     let start = on_screen(&window, dvec3(0.25, 0.0, 0.0));
-    drag(&mut window, start + vec2(70.0, 0.0), vec2(35.0, 0.0));
+    let from = start + vec2(70.0, 0.0);
+    drag(&mut window, from, from + vec2(35.0, 0.0));
     let pixel = 2.0 * 8.0 * 15_f64.to_radians().tan() / 300.0;
     let moved = section(&window).expect("a plane");
     assert_eq!(moved.normal, DVec3::X);
@@ -94,7 +81,7 @@ fn the_plane_is_moved_by_its_arrow_and_tilted_by_its_rings_in_the_picture() {
     let radius = 0.7 * 84.0;
     let slant = radius * std::f32::consts::FRAC_1_SQRT_2;
     let from = middle + vec2(-slant, -slant);
-    drag(&mut window, from, vec2(0.0, 2.0 * slant));
+    drag(&mut window, from, from + vec2(0.0, 2.0 * slant));
     let tilted = section(&window).expect("a plane");
     assert!((tilted.normal.length() - 1.0).abs() < 1e-9);
     // Counter-clockwise: what pointed to the right points upwards.

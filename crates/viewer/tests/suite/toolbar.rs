@@ -460,7 +460,7 @@ fn overlays_are_chosen_in_a_menu_that_stays_open_and_snapping_has_a_switch() {
     assert!(chosen.grid && !chosen.outline && !chosen.wireframe);
     window.harness.key_press(Key::Escape);
     window.settle();
-    // What is chosen while all overlays are hidden is shown, and what is hidden stays so.
+    // An overlay that is chosen while all are hidden is shown, and the others stay hidden.
     window.session().shows_overlays = false;
     (window.harness).key_press_modifiers(Modifiers::ALT, Key::G);
     window.settle();

@@ -4,7 +4,7 @@ use super::answer;
 use crate::harness::Window;
 use crate::making::{middle, press};
 use eframe::egui::{
-    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, TouchPhase, vec2,
+    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, Vec2, vec2,
 };
 use glam::{DVec3, dvec3};
 use glimray_viewer::model::camera::project;
@@ -69,26 +69,9 @@ fn wheel(window: &mut Window, points: f32) {
     window.settle();
 }
 
-fn drag(window: &mut Window, by: eframe::egui::Vec2) {
+fn drag(window: &mut Window, by: Vec2) {
     let start = middle(window);
-    window.harness.hover_at(start);
-    window.harness.step();
-    for pressed in [true, false] {
-        window.harness.event(Event::PointerButton {
-            pos: start,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        });
-        window.harness.step();
-        if pressed {
-            for share in [0.5, 1.0] {
-                window.harness.hover_at(start + by * share);
-                window.harness.step();
-            }
-        }
-    }
-    window.settle();
+    crate::edit::drag(window, start, start + by);
 }
 
 #[test]
