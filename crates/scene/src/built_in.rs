@@ -1,6 +1,6 @@
 //! Built-in environments, in one table. All are computed, so scenes store their names alone.
 //!
-//! Those without a sun are grey, and their mean radiance over all directions is 1: in its mean light, white diffuse
+//! Environments without a sun are grey, and their mean radiance over all directions is 1: in its mean light, white diffuse
 //! paper has a radiance of 1. They are as dark or bright as they are by their shape alone.
 
 use super::{Origin, Picture, sky};
@@ -88,7 +88,7 @@ environments! {
         description: "A dim room with a ring light round the camera of a model",
         sun_deg: None,
     }
-    /// The same radiance from all directions.
+    /// Equal radiance from all directions.
     Furnace {
         name: "furnace",
         title: "Furnace",

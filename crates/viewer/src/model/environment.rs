@@ -22,7 +22,7 @@ pub enum BackgroundLight {
     },
     /// A picture.
     Picture {
-        /// Its rotation about +Y in degrees, counter-clockwise from above.
+        /// The rotation of the picture about +Y in degrees, counter-clockwise from above.
         rotation_deg: f64,
     },
 }

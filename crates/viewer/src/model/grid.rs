@@ -16,7 +16,7 @@ pub struct GridLine {
     pub ends: [DVec3; 2],
     /// The axis of the world that it lies on, 0 to 2, if any.
     pub axis: Option<usize>,
-    /// Its share of a full line, 0 to 1.
+    /// The strength of the line as a share of a full one, 0 to 1.
     pub strength: f64,
 }
 

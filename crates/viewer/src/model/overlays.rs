@@ -1,4 +1,4 @@
-//! What can be drawn over the picture, in one table.
+//! The overlays of the picture, in one table.
 
 use crate::model::bindings::Action;
 

@@ -16,7 +16,7 @@ pub struct TextureSlot {
     pub title: &'static str,
     /// Explains the row.
     pub tip: &'static str,
-    /// What the values of a picture mean here.
+    /// The meaning of a picture's values in this slot.
     pub meaning: Meaning,
     index: Index,
     wake: Wake,

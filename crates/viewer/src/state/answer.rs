@@ -38,7 +38,7 @@ pub enum Answer {
     Snapshot(Box<Snapshot>),
     /// A bookmark of the scene with this key, with its small picture.
     Bookmarked(PathBuf, Box<SavedCamera>),
-    /// What the pixels of the picture show; `None` if it is another picture by now.
+    /// The objects and distances of the pixels of the picture; `None` if the picture is another one by now.
     Seen(Option<Box<Seen>>),
     /// No result.
     Nothing,

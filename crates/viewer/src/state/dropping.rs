@@ -19,7 +19,7 @@ impl Dragged {
 /// A material in the hand, and what it is over.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dropping {
-    /// Its index.
+    /// The index of the material.
     pub material: usize,
     /// The object that it would be dropped on.
     pub over: Option<ObjectRef>,

@@ -8,7 +8,7 @@ use std::sync::mpsc::Receiver;
 /// A small picture on its way.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Preview {
-    /// It waits, or is being rendered.
+    /// The picture waits, or is being rendered.
     Awaited,
     /// The file cannot be rendered, or is too large to be read for this.
     Missing,

@@ -110,7 +110,7 @@ pub struct Session {
     pub overlays: Overlays,
     /// Whether moves, rotations and scales snap without a key.
     pub snaps: bool,
-    /// What the pixels of the picture show.
+    /// The objects and distances that the pixels of the picture show.
     pub sight: SightState,
     /// Whether inspected rays are drawn over the picture too.
     pub shows_path: bool,

@@ -25,7 +25,7 @@ pub struct Marks {
     /// Lamps, nodes and cameras, which are marked with lines whether they can be seen or not, and all that is selected while it
     /// is not known what the pixels show.
     pub firm: Vec<Id>,
-    /// What nothing is seen of.
+    /// Selected objects without a visible pixel.
     pub faint: Vec<Id>,
 }
 

@@ -13,9 +13,9 @@ const SUN: Color32 = Color32::from_rgb(255, 214, 64);
 /// A map on the screen.
 #[derive(Clone, Copy, Debug)]
 pub struct SunDial {
-    /// Its middle.
+    /// The middle of the map.
     pub center: Pos2,
-    /// Its radius, in points.
+    /// The radius of the map, in points.
     pub radius: f32,
 }
 

@@ -32,7 +32,7 @@ impl PartialEq for StillRequest {
 pub struct ShownDifference {
     /// The difference, multiplied by the gain.
     pub screen: Screen,
-    /// What was measured.
+    /// The measure of the difference.
     pub measure: Measure,
     /// The part of the picture that it covers: x, y, width and height in pixels of the whole picture.
     pub region: [u32; 4],

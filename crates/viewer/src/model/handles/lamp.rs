@@ -50,7 +50,7 @@ impl LampPart {
 /// A lamp as it is shown: its shape and its handles in world space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lamp {
-    /// Its kind in world space.
+    /// The kind of the lamp in world space.
     pub kind: LightKind,
     /// The middle from which it shines. Lamps that are infinitely far away are shown here.
     pub at: DVec3,
@@ -87,7 +87,7 @@ impl Lamp {
         }
     }
 
-    /// Its shape: the surface or the cone, a star for a point, arrows for parallel light, and its direction.
+    /// The shape of the lamp: the surface or the cone, a star for a point, arrows for parallel light, and its direction.
     pub fn lines(&self, eye: Eye) -> Vec<[DVec3; 2]> {
         let &Self { at, reach, .. } = self;
         let mut lines = match self.kind {
@@ -230,7 +230,7 @@ pub struct LampGrip {
 /// A new value of a property of a lamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LampChange {
-    /// Its direction, of unit length in world space.
+    /// The direction of the lamp, of unit length in world space.
     Direction(DVec3),
     /// The factor on its width, height or radius.
     Factor(f64),

@@ -106,7 +106,7 @@ fn drawn(ui: &mut egui::Ui, context: &PanelContext) {
     }
 }
 
-/// What a material is dragged onto.
+/// The material that is dragged, and the object below it.
 fn dropping(ui: &mut egui::Ui, context: &PanelContext) {
     let session = &context.session;
     let Some(Dropping { material, over, .. }) = session.editing.dropping else {

@@ -41,7 +41,7 @@ pub(crate) struct SkyTable {
 }
 
 words! {
-    /// A built-in environment, also for `--environment`. Those without a sun are grey, and their mean radiance over all
+    /// A built-in environment, also for `--environment`. Environments without a sun are grey, and their mean radiance over all
     /// directions is 1.
     NamedBackground for BuiltIn {
         /// The clear sky, with the sun at its default place.
