@@ -350,7 +350,6 @@ impl<'s> Reader<'s> {
         let mut materials = self.materials();
         self.whiten(&mut materials);
         let colors = self.vertex_colors(&mut materials);
-        self.drop_unwanted_uvs(&materials);
         self.smooth();
         let (vertices, vertex_of_corner) = weld::weld(&self.corners);
         for corner in self.triangles.as_flattened_mut() {

@@ -40,7 +40,7 @@ material = "physical"
 "#;
 
 /// Writes a picture of 2 × 1 texels: red on the left, and a colour on the right.
-fn picture(path: &Path, right: [u8; 4]) -> PathBuf {
+pub(super) fn picture(path: &Path, right: [u8; 4]) -> PathBuf {
     let mut picture = image::RgbaImage::new(2, 1);
     picture.put_pixel(0, 0, image::Rgba([255, 0, 0, 255]));
     picture.put_pixel(1, 0, image::Rgba(right));
@@ -49,9 +49,17 @@ fn picture(path: &Path, right: [u8; 4]) -> PathBuf {
 }
 
 fn open() -> (TempDir, Window) {
+    open_text(SCENE)
+}
+
+/// Beside the scene lies the square as a model.
+fn open_text(text: &str) -> (TempDir, Window) {
     let folder = tempfile::tempdir().expect("a folder");
+    let square = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
+                  f 1/1 2/2 3/3 4/4\n";
+    std::fs::write(folder.path().join("square.obj"), square).expect("a model");
     let path = folder.path().join("scene.toml");
-    std::fs::write(&path, SCENE).expect("a scene");
+    std::fs::write(&path, text).expect("a scene");
     let path = path.to_str().expect("UTF-8");
     let mut window = Window::open(&[path, "--size=16x16", "--integrator=whitted"]);
     window.harness.set_size(eframe::egui::vec2(1000.0, 1600.0));
@@ -60,7 +68,7 @@ fn open() -> (TempDir, Window) {
 }
 
 /// The file dialog will answer with this file.
-fn answer(window: &Window, path: &Path) {
+pub(super) fn answer(window: &Window, path: &Path) {
     let path = path.to_owned();
     let dialogs = FileDialogs::answering(move |_| Reply::Chosen(path.clone()));
     window.session().files.dialogs = dialogs;
@@ -209,6 +217,23 @@ fn click_fold(window: &mut Window, label: &str) {
     let fold = window.harness.get_by_label(label);
     fold.click_accesskit();
     window.settle();
+}
+
+#[test]
+fn a_picture_lies_on_a_model_that_had_no_texture() {
+    let rectangle = "rectangle = { center = [0, 0, 0], normal = [0, 0, 1], size = [2, 2] }";
+    let (folder, mut window) =
+        open_text(&SCENE.replace(rectangle, "mesh = { file = \"square.obj\" }"));
+    let green = picture(&folder.path().join("green.png"), [0, 255, 0, 255]);
+    let model = Id::Object(ObjectRef::Instance(0));
+    window.session().select(vec![model]);
+    window.settle();
+    unfold_textures(&mut window);
+    answer(&window, &green);
+    press(&mut window, "Open × Ambient");
+    window.settle();
+    let [reds, greens] = counts(&mut window);
+    assert!(reds > 0 && greens == reds, "{reds} red and {greens} green");
 }
 
 #[test]

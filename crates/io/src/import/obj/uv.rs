@@ -1,4 +1,4 @@
-//! Texture coordinates: the `vt` statement, and which vertices keep them.
+//! Texture coordinates: the `vt` statement, and those of vertices.
 
 use super::Reader;
 use super::face;
@@ -36,30 +36,30 @@ impl Reader<'_> {
             .push(Vec2::new(place(numbers[0]), place(numbers[1])));
     }
 
-    /// Removes u and v from corners whose material does not use them, so that they do not split vertices.
-    pub(super) fn drop_unwanted_uvs(&mut self, materials: &[Material]) {
-        for corner in &mut self.corners {
-            let material = &materials[corner.material as usize];
-            if !self.replaced.unwrap_or_else(|| is_textured(material)) {
-                corner.uv = face::NO_UV;
-            }
-        }
-    }
-
-    /// u and v of `vertices`; empty if none has any. Adds a note if `materials` use them.
+    /// u and v of `vertices`; empty if none has any. Adds a note if `materials` use them and have none.
     pub(super) fn uvs_of(&mut self, vertices: &[u32], materials: &[Material]) -> Vec<Vec2> {
-        let uv = |&vertex: &u32| self.corners[vertex as usize].uv;
-        if vertices.iter().any(|v| uv(v) != face::NO_UV) {
-            let place = |v: &u32| self.uvs.get(uv(v) as usize).copied().unwrap_or_default();
-            return vertices.iter().map(place).collect();
-        }
-        let own = || materials.iter().any(is_textured);
-        if self.replaced.unwrap_or_else(own) {
+        let corner = |&vertex: &u32| self.corners[vertex as usize];
+        let has_uv = |vertex: &&u32| corner(vertex).uv != face::NO_UV;
+        let is_used = |vertex: &u32| {
+            let material = &materials[corner(vertex).material as usize];
+            self.replaced.unwrap_or_else(|| is_textured(material))
+        };
+        let are_used = self
+            .replaced
+            .unwrap_or_else(|| materials.iter().any(is_textured));
+        if are_used && !vertices.iter().filter(has_uv).any(is_used) {
             self.notes.add("meshes without texture coordinates", || {
                 "no texture coordinates: each texture shows a single colour".to_owned()
             });
         }
-        Vec::new()
+        match vertices.iter().any(|vertex| has_uv(&vertex)) {
+            true => {
+                let uv = |vertex: &u32| self.uvs.get(corner(vertex).uv as usize);
+                let uvs = vertices.iter().map(uv);
+                uvs.map(|uv| uv.copied().unwrap_or_default()).collect()
+            }
+            false => Vec::new(),
+        }
     }
 }
 

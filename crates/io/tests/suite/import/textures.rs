@@ -331,11 +331,10 @@ fn models_have_their_textures() {
 }
 
 #[test]
-fn vertices_are_split_by_u_and_v_only_if_a_texture_uses_them() {
+fn a_model_keeps_its_u_and_v_though_no_texture_uses_them() {
     let faces = "f 1/1 2/2 3/3\nf 1/4 3/2 4/1\n";
     let plain = model(&[("a.obj", format!("{SQUARE}{faces}").as_bytes())]);
-    assert_eq!(plain.meshes[0].positions.len(), 4);
-    assert!(plain.meshes[0].uvs.is_empty());
+    assert_eq!(plain.skipped, Vec::<String>::new());
     let text = format!("mtllib a.mtl\n{SQUARE}usemtl a\n{faces}");
     let library: &[u8] = b"newmtl a\nmap_Kd a.png\n";
     let png = png();
@@ -345,16 +344,29 @@ fn vertices_are_split_by_u_and_v_only_if_a_texture_uses_them() {
         ("a.png", &png),
     ];
     let shown = model(&files);
-    assert_eq!(shown.meshes[0].positions.len(), 6);
-    assert!(shown.meshes[0].uvs.contains(&Vec2::Y));
+    // Two corners of the square have other coordinates in its second half.
+    for scene in [&plain, &shown] {
+        let mesh = &scene.meshes[0];
+        let corners = mesh
+            .triangles
+            .iter()
+            .flatten()
+            .map(|corner| *corner as usize);
+        let found: Vec<_> = corners
+            .map(|i| (mesh.positions[i].truncate(), mesh.uvs[i]))
+            .collect();
+        let [a, b, c, d] = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+        let expected = [(a, a), (b, b), (c, c), (a, d), (c, b), (d, a)];
+        assert_eq!((mesh.positions.len(), &found[..]), (6, &expected[..]));
+    }
 
-    // In a native scene, a replacement material decides whether vertices have u and v.
-    for (space, vertices) in [("world", 4), ("uv", 6)] {
+    // So it does with another material.
+    for space in ["world", "uv"] {
         let native = format!(
             "[[objects]]\nmesh = {{ file = 'a.obj' }}\nmaterial = {{ phong = {{ diffuse = {{ checker = {{}}, space = '{space}' }} }} }}"
         );
         let scene = model(&[("s.toml", native.as_bytes()), files[0], files[1], files[2]]);
-        assert_eq!(scene.meshes[0].positions.len(), vertices);
+        assert_eq!(scene.meshes[0].uvs, shown.meshes[0].uvs);
         assert_eq!((scene.pictures.len(), scene.textures.len()), (0, 1));
     }
     let native = b"textures.t.checker = {}\nmaterials.m.phong.diffuse = { texture = 't' }\n\
@@ -377,7 +389,7 @@ fn unreadable_textures_of_models_are_skipped() {
         ("broken.png", b"not a picture"),
     ]);
     assert_eq!(scene.triangle_count(), 4);
-    assert!(scene.textures.is_empty() && scene.meshes[0].uvs.is_empty());
+    assert!(scene.textures.is_empty());
     assert_snapshot!(scene.skipped.join("\n"), @r"
 `map_Kd`: pictures without a file skipped: 1 (line 9 of a.mtl)
 `map_Ks`: pictures without a file skipped: 1 (line 10 of a.mtl)
