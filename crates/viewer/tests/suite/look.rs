@@ -138,8 +138,11 @@ fn every_setting_of_the_picture_is_in_the_panel_under_its_name() {
 #[test]
 fn pausing_and_restarting_are_buttons() {
     let mut window = open();
+    let room = |window: &Window, name: &str| window.harness.get_by_label(name).rect();
+    let before = room(&window, "Pause");
     click(&mut window, "Pause");
     assert!(window.session().view.paused);
+    assert_eq!(room(&window, "Continue"), before, "the buttons jump");
     click(&mut window, "Continue");
     assert!(!window.session().view.paused);
     let before = window.shown().stats.samples;

@@ -9,7 +9,7 @@ use eframe::egui::{self, Ui};
 use glimray_scene::bytes::size;
 
 /// Width of the button that pauses and continues, in points.
-const PAUSE: f32 = 66.0;
+const PAUSE: f32 = 70.0;
 
 /// The progress bar, and the buttons that control rendering.
 pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
