@@ -9,11 +9,12 @@ use glimray::scene::Background;
 use glimray_viewer::actions::files::{self};
 use glimray_viewer::model::file_dialog::{FileDialogs, Reply};
 use glimray_viewer::model::messages::sentence;
+use glimray_viewer::model::watch::Watch;
 use glimray_viewer::state::files::Intent;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 use tempfile::TempDir;
 
 const SMALL: [&str; 4] = ["--size", "48x32", "--samples", "2"];
@@ -263,6 +264,22 @@ fn a_broken_edit_shows_its_line_and_keeps_the_last_good_picture_until_it_is_mend
     wait(&mut window, "the error goes away", |window| {
         message(window).is_none()
     });
+}
+
+#[test]
+fn a_folder_that_cannot_be_watched_is_told_in_words() {
+    let (folder, path) = crate::edit::file();
+    let mut window = crate::edit::open(&path, "64x48");
+    let gone = folder.path().join("gone").join("balls.toml");
+    let why = Watch::default().set_files(&[gone.clone()], SystemTime::now(), || {});
+    assert_eq!(why, Err("the folder does not exist".to_owned()));
+    // Saved files are watched from then on.
+    files::saved(&mut window.session(), vec![gone]);
+    window.settle();
+    let told = window.session().messages.current();
+    let told: Vec<_> = told.iter().map(|it| it.text.as_str()).collect();
+    let expected = "Cannot watch the scene's files: the folder does not exist. Reload the scene manually when they change.";
+    assert!(told.contains(&expected), "{told:?}");
 }
 
 #[test]
