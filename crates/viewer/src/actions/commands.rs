@@ -248,7 +248,9 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         | Action::ToggleGrid
         | Action::ToggleWireframe
         | Action::ToggleFeatureEdges
-        | Action::ToggleSectionHandle => toggle_overlay(session, action),
+        | Action::ToggleSectionHandle
+        | Action::ToggleLampHandles
+        | Action::ToggleInspectedRays => toggle_overlay(session, action),
         Action::ToggleStatistics => session.shows_statistics = !session.shows_statistics,
         Action::ToggleTheme => session.preferences.theme = other_theme(ctx.theme()),
         Action::LargerText => session.preferences.enlarge(),
@@ -264,15 +266,15 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
 
 /// Shows or hides an overlay. One that is shown brings the others back.
 fn toggle_overlay(session: &mut Session, action: Action) {
-    if let Some(is_shown) = session.overlays.of(action) {
+    if let Some(is_shown) = session.preferences.overlays.of(action) {
         *is_shown = !*is_shown || !session.shows_overlays;
         session.shows_overlays |= *is_shown;
     }
 }
 
 fn toggle_snapping(session: &mut Session) {
-    session.snaps = !session.snaps;
-    session.messages.notify(match session.snaps {
+    session.preferences.snaps = !session.preferences.snaps;
+    session.messages.notify(match session.preferences.snaps {
         true => "Snapping is on",
         false => "Snapping is off",
     });

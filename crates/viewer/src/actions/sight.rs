@@ -22,7 +22,7 @@ const MOST_ON_CPU: u64 = 1 << 20;
 
 /// The picture as it is now; `None` before there is one.
 pub(super) fn subject(session: &Session) -> Option<Subject> {
-    let overlays = &session.overlays;
+    let overlays = &session.preferences.overlays;
     let is_shown = session.shows_overlays;
     Some(Subject {
         scene: session.scene()?.clone(),
@@ -38,7 +38,7 @@ pub(super) fn subject(session: &Session) -> Option<Subject> {
 
 /// Whether something is drawn or chosen by what the pixels show.
 fn is_wanted(session: &Session) -> bool {
-    let overlays = &session.overlays;
+    let overlays = &session.preferences.overlays;
     let is_drawn = overlays.grid || overlays.has_edges();
     let is_outlined = overlays.outline && session.selection.is_some();
     session.viewport.is_some()

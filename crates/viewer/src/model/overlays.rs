@@ -1,9 +1,11 @@
 //! The overlays of the picture, in one table.
 
 use crate::model::bindings::Action;
+use serde::{Deserialize, Serialize};
 
 /// Which overlays are shown, as long as overlays are shown at all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Overlays {
     /// The outline of the selection.
     pub outline: bool,
@@ -15,6 +17,10 @@ pub struct Overlays {
     pub features: bool,
     /// The handle of the section plane.
     pub section: bool,
+    /// The handles of the selected lamp.
+    pub lamps: bool,
+    /// The inspected rays.
+    pub rays: bool,
 }
 
 impl Default for Overlays {
@@ -25,6 +31,8 @@ impl Default for Overlays {
             wireframe: false,
             features: false,
             section: true,
+            lamps: true,
+            rays: true,
         }
     }
 }
@@ -40,12 +48,14 @@ pub struct OverlayEntry {
 
 impl Overlays {
     /// All overlays, in the order of menus.
-    pub const ALL: [OverlayEntry; 5] = [
+    pub const ALL: [OverlayEntry; 7] = [
         entry("Selection outline", Action::ToggleOutlines),
         entry("Grid", Action::ToggleGrid),
         entry("Wireframe", Action::ToggleWireframe),
         entry("Feature edges", Action::ToggleFeatureEdges),
         entry("Section handle", Action::ToggleSectionHandle),
+        entry("Lamp handles", Action::ToggleLampHandles),
+        entry("Inspected rays", Action::ToggleInspectedRays),
     ];
 
     /// The setting of a command; `None` for other commands.
@@ -56,6 +66,8 @@ impl Overlays {
             Action::ToggleWireframe => Some(&mut self.wireframe),
             Action::ToggleFeatureEdges => Some(&mut self.features),
             Action::ToggleSectionHandle => Some(&mut self.section),
+            Action::ToggleLampHandles => Some(&mut self.lamps),
+            Action::ToggleInspectedRays => Some(&mut self.rays),
             _ => None,
         }
     }

@@ -9,6 +9,7 @@ pub use saved_camera::SavedCamera;
 pub use thumbnail::{THUMBNAIL, Thumbnail};
 
 use crate::model::bindings::Bindings;
+use crate::model::overlays::Overlays;
 use glimray_app::folders::{self, SETTINGS_VARIABLE};
 use glimray_io::output::{self, OutputError};
 use glimray_scene::ToneCurve;
@@ -82,6 +83,11 @@ pub struct Preferences {
     /// Files that were opened, the most recent first.
     #[serde(serialize_with = "format::paths")]
     pub recent: Vec<PathBuf>,
+    /// Whether moves, rotations and scales snap without a key.
+    pub snaps: bool,
+    /// What is drawn over the picture.
+    #[serde(skip_deserializing)]
+    pub overlays: Overlays,
     /// Keyboard and mouse bindings.
     #[serde(skip_deserializing, serialize_with = "format::bindings")]
     pub bindings: Bindings,
@@ -95,6 +101,8 @@ impl Default for Preferences {
         Self {
             theme: Theme::System,
             ui_scale: 1.0,
+            snaps: false,
+            overlays: Overlays::default(),
             bindings: Bindings::default(),
             recent: Vec::new(),
             cameras: BTreeMap::new(),

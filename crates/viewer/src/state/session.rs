@@ -12,7 +12,6 @@ use crate::model::loader::Loader;
 use crate::model::messages::Messages;
 use crate::model::objects;
 use crate::model::objects::Id;
-use crate::model::overlays::Overlays;
 use crate::model::playback::Playback;
 use crate::model::preferences::{Preferences, Store};
 use crate::model::recording::InputRecording;
@@ -106,14 +105,8 @@ pub struct Session {
     pub shows_statistics: bool,
     /// Whether overlays are visible.
     pub shows_overlays: bool,
-    /// Which of them are.
-    pub overlays: Overlays,
-    /// Whether moves, rotations and scales snap without a key.
-    pub snaps: bool,
     /// The objects and distances that the pixels of the picture show.
     pub sight: SightState,
-    /// Whether inspected rays are drawn over the picture too.
-    pub shows_path: bool,
     /// The stills to compare with.
     pub comparing: Comparing,
     /// The comparison that a flip to a kept picture has replaced.
@@ -199,10 +192,7 @@ impl Session {
             pixel_zoom: PixelZoom::default(),
             shows_statistics: true,
             shows_overlays: true,
-            overlays: Overlays::default(),
-            snaps: false,
             sight: SightState::default(),
-            shows_path: true,
             comparing: Comparing::default(),
             unflipped: None,
             histogram: HistogramView::default(),

@@ -26,12 +26,12 @@ pub fn draw(session: &mut Session, painter: &Painter, viewport: Viewport) {
         return;
     };
     let view = WorldPainter::new(painter, viewport, &camera);
-    if session.overlays.grid
+    if session.preferences.overlays.grid
         && let Some(grid) = grid(session, &view)
     {
         painter.extend(ground(session, &view, grid));
     }
-    if session.overlays.has_edges()
+    if session.preferences.overlays.has_edges()
         && let Some(edges) = edges(session, &view)
     {
         painter.extend(edges);

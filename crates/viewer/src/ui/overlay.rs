@@ -54,7 +54,7 @@ pub fn overlay(
     }
     let view = WorldPainter::new(painter, viewport, &camera);
     let (eye, time) = (view.eye, session.playback.time);
-    if session.overlays.outline {
+    if session.preferences.overlays.outline {
         let marks = silhouette::draw(session, &view, &selected);
         let firm = outlines(session, &scene, &marks.firm, &view);
         view.lines(&firm, silhouette::LEAD);
@@ -180,7 +180,7 @@ pub(in crate::ui) fn held(session: &Session, ctx: &egui::Context) -> (bool, Snap
     let [is_fine, is_other] = ctx.input(|input| {
         [Action::FineHandles, Action::SnapHandles].map(|action| bindings.is_held(action, input))
     });
-    let snap = match (session.snaps != is_other, is_fine) {
+    let snap = match (session.preferences.snaps != is_other, is_fine) {
         (false, _) => Snap::Off,
         (true, false) => Snap::Whole,
         (true, true) => Snap::Fine,

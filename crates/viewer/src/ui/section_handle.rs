@@ -83,7 +83,7 @@ pub fn handle(
     viewport: Viewport,
 ) -> bool {
     let is_shown = session.shows_overlays
-        && session.overlays.section
+        && session.preferences.overlays.section
         && session.editing.modal.is_none()
         && session.editing.grip.is_none();
     let (scene, camera) = (session.scene().cloned(), session.camera());

@@ -73,7 +73,7 @@ fn the_axes_of_the_grid_are_seen_beside_an_object_and_not_before_it() {
     // The command of the keyboard takes it away.
     (window.harness).key_press_modifiers(Modifiers::ALT, Key::G);
     window.settle();
-    assert!(!window.session().overlays.grid);
+    assert!(!window.session().preferences.overlays.grid);
     assert!(window.harness.query_by_label_contains("grid 1").is_none());
 }
 
@@ -169,7 +169,7 @@ fn found_length(window: &Window) -> f64 {
 #[test]
 fn edges_end_at_the_section_plane() {
     let (_folder, mut window) = open();
-    window.session().overlays.features = true;
+    window.session().preferences.overlays.features = true;
     let left = Section {
         normal: DVec3::X,
         offset: 0.0,

@@ -1,6 +1,6 @@
 //! Light by hand: the background turned by a drag, the map of the sky, built-in environments, and handles of lamps.
 
-use super::edit::{on_screen, scene};
+use super::edit::{on_screen, perform, scene};
 use super::making::undo_count;
 use crate::harness::Window;
 use crate::reference::compare::render;
@@ -11,7 +11,7 @@ use glimray::import;
 use glimray::render::Tone;
 use glimray::scene::{Background, BuiltIn, LightKind, ObjectRef, Origin, Scene};
 use glimray_viewer::actions::saving;
-use glimray_viewer::model::bindings::Preset;
+use glimray_viewer::model::bindings::{Action, Preset};
 use glimray_viewer::model::camera::ray_through;
 use glimray_viewer::model::objects::Id;
 use std::path::PathBuf;
@@ -66,7 +66,7 @@ fn let_go(window: &mut Window, at: Pos2, which: PointerButton) {
     window.settle();
 }
 
-fn turn(window: &mut Window, way: Vec2) {
+pub(super) fn turn(window: &mut Window, way: Vec2) {
     let from = window.session().viewport.expect("a picture").rect.center();
     pull(
         window,
@@ -425,6 +425,19 @@ fn the_edges_of_area_lamps_follow_the_pointer() {
         LightKind::Sphere { radius, .. } => near(radius, 1.25, 0.01),
         ref other => panic!("{other:?}"),
     }
+}
+
+#[test]
+fn handles_of_lamps_are_an_overlay_of_its_own() {
+    let (_folder, _, mut window) = open("ambient = [0.1, 0.1, 0.1]", SPOT);
+    select(&mut window);
+    let handle = aim(&window, dvec3(0.0, 2.0, 0.0), DVec3::NEG_Y);
+    for is_shown in [true, false, true] {
+        assert_eq!(grabs(&mut window, handle), is_shown);
+        perform(&mut window, Action::ToggleLampHandles);
+    }
+    drag(&mut window, handle, handle + vec2(60.0, 0.0));
+    assert_eq!(undo_count(&window), 0, "a hidden handle is dragged");
 }
 
 #[test]

@@ -4,6 +4,7 @@ use crate::support::random::Random;
 use glam::dvec3;
 use glimray::scene::{Camera, Lens, ToneCurve};
 use glimray_viewer::model::bindings::{Action, Preset};
+use glimray_viewer::model::overlays::Overlays;
 use glimray_viewer::model::preferences::{
     MAX_CAMERAS, MAX_RECENT, Preferences, SavedCamera, Store, Theme,
 };
@@ -50,6 +51,16 @@ fn changed(place: &Path) -> Preferences {
     it.window = Some([1234.5, 777.0]);
     it.window_position = Some([-20.0, 31.0]);
     it.maximized = true;
+    it.snaps = true;
+    it.overlays = Overlays {
+        outline: false,
+        grid: true,
+        wireframe: true,
+        features: true,
+        section: false,
+        lamps: false,
+        rays: false,
+    };
     it.bindings.set_preset(Preset::Blender);
     let keys = vec!["Ctrl+U".parse().expect("a key")];
     it.bindings.set(Action::Undo, keys).expect("a key");
@@ -165,7 +176,7 @@ fn one_bad_setting_costs_nothing_but_itself() {
     let good = good_file(place.path());
     let whole = changed(place.path());
     type Repair = fn(&mut Preferences);
-    let rows: [(&str, &str, &str, Repair); 14] = [
+    let rows: [(&str, &str, &str, Repair); 17] = [
         ("theme = \"light\"", "theme = \"pink\"", "`pink`", |it| {
             it.theme = Theme::System
         }),
@@ -195,6 +206,15 @@ fn one_bad_setting_costs_nothing_but_itself() {
         ),
         ("maximized = true", "maximized = 1", "`maximized`", |it| {
             it.maximized = false
+        }),
+        ("snaps = true", "snaps = 1", "`snaps`", |it| {
+            it.snaps = false
+        }),
+        ("grid = true", "grid = \"fine\"", "`grid`", |it| {
+            it.overlays.grid = false
+        }),
+        ("grid = true", "net = true", "`net`", |it| {
+            it.overlays.grid = false
         }),
         ("preset = \"blender\"", "preset = \"vi\"", "`vi`", |it| {
             it.bindings.set_preset(Preset::Glimray);

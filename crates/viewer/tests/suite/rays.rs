@@ -2,6 +2,7 @@
 
 mod paths;
 
+use crate::edit::perform;
 use crate::harness::Window;
 use crate::support::effort;
 use eframe::egui;
@@ -13,6 +14,7 @@ use glimray_viewer::actions::inspector;
 use glimray_viewer::actions::inspector::export;
 use glimray_viewer::actions::inspector::export::Format;
 use glimray_viewer::actions::inspector::{hidden, outside};
+use glimray_viewer::model::bindings::Action;
 use glimray_viewer::model::file_dialog::{FileDialogs, Reply};
 use glimray_viewer::model::objects::Id;
 use glimray_viewer::state::inspector::ray_labels;
@@ -606,11 +608,13 @@ fn the_path_is_drawn_along_its_lines_and_can_be_hidden() {
     window.harness.hover_at(egui::pos2(4.0, 790.0));
     window.settle();
     let with = window.harness.render().expect("a picture of the window");
-    window.harness.get_by_label("Path in picture").click();
+    perform(&mut window, Action::ToggleInspectedRays);
     window.harness.hover_at(egui::pos2(4.0, 790.0));
     window.settle();
     let without = window.harness.render().expect("a picture of the window");
-    assert!(!window.session().shows_path);
+    window.harness.get_by_label("Path in picture").click();
+    window.settle();
+    assert!(window.session().preferences.overlays.rays);
     let session = window.session();
     let viewport = session.viewport.expect("a picture");
     let lines = outside::path(&session, viewport.extent());

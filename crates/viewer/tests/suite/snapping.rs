@@ -64,7 +64,7 @@ fn ctrl_moves_in_steps_of_the_grid_and_the_switch_makes_that_usual() {
     window.settle();
     (window.harness).key_press_modifiers(Modifiers::ALT, Key::S);
     window.settle();
-    assert!(window.session().snaps);
+    assert!(window.session().preferences.snaps);
     hover(&mut window, Vec2::ZERO);
     press(&mut window, Key::G);
     press(&mut window, Key::X);

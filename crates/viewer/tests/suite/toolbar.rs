@@ -11,8 +11,9 @@ use glam::{DVec3, dvec3};
 use glimray::render::Integrator;
 use glimray::scene::ObjectRef;
 use glimray_app::layers::PictureLayer;
-use glimray_viewer::actions::files;
+use glimray_viewer::actions::{files, settings};
 use glimray_viewer::model::objects::Id;
+use glimray_viewer::model::preferences::Store;
 use glimray_viewer::model::tool::Tool;
 use glimray_viewer::model::view_settings::Sharing;
 use glimray_viewer::state::layout::Panel;
@@ -456,7 +457,7 @@ fn overlays_are_chosen_in_a_menu_that_stays_open_and_snapping_has_a_switch() {
         window.harness.get_by_label(entry).click();
         window.settle();
     }
-    let chosen = window.session().overlays;
+    let chosen = window.session().preferences.overlays;
     assert!(chosen.grid && !chosen.outline && !chosen.wireframe);
     window.harness.key_press(Key::Escape);
     window.settle();
@@ -464,9 +465,15 @@ fn overlays_are_chosen_in_a_menu_that_stays_open_and_snapping_has_a_switch() {
     window.session().shows_overlays = false;
     (window.harness).key_press_modifiers(Modifiers::ALT, Key::G);
     window.settle();
-    assert!(window.session().shows_overlays && window.session().overlays.grid);
+    assert!(window.session().shows_overlays && window.session().preferences.overlays.grid);
     click(&mut window, "Snapping");
-    assert!(window.session().snaps);
+    assert!(window.session().preferences.snaps);
+    // The next window has them.
+    settings::write(&mut window.session());
+    let (kept, _) = Store::in_folder(window.settings.path()).load();
+    let chosen = window.session().preferences.overlays;
+    assert!(chosen.grid && !chosen.outline);
+    assert_eq!((kept.overlays, kept.snaps), (chosen, true));
     // Beside the rays the picture is narrow: the bar has fewer buttons, and all of them lie in it.
     window.harness.key_press(Key::I);
     window.settle();

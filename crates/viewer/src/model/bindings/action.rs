@@ -250,6 +250,8 @@ actions! {
         ToggleWireframe "toggle-wireframe" Press "Show or hide all edges of meshes",
         ToggleFeatureEdges "toggle-feature-edges" Press "Show or hide borders, creases and edges between materials",
         ToggleSectionHandle "toggle-section-handle" Press "Show or hide the handle of the section plane",
+        ToggleLampHandles "toggle-lamp-handles" Press "Show or hide the handles of lamps",
+        ToggleInspectedRays "toggle-inspected-rays" Press "Show or hide the inspected rays over the picture",
         ToggleStatistics "toggle-statistics" Press "Show or hide statistics",
         ToggleTheme "toggle-theme" Press "Switch between dark and light",
         LargerText "larger-text" Press "Zoom the interface in",

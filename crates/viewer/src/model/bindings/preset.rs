@@ -192,6 +192,8 @@ pub(super) const GLIMRAY: &str = "
     toggle-wireframe: Alt+E
     toggle-feature-edges: Shift+Alt+E
     toggle-section-handle: Shift+Alt+S
+    toggle-lamp-handles: Alt+L
+    toggle-inspected-rays: Alt+I
     toggle-statistics: Shift+I
     toggle-theme: F9
     larger-text: Ctrl+Equals, Ctrl+Plus, Ctrl+Shift+Plus

@@ -59,9 +59,11 @@ fn reason(error: &toml::de::Error) -> String {
 }
 
 fn from_table(mut table: Table, notes: &mut Vec<String>) -> Preferences {
+    let overlays = sub_table(&mut table, "overlays", notes);
     let bindings = sub_table(&mut table, "bindings", notes);
     let cameras = sub_table(&mut table, "cameras", notes);
     let mut preferences = by_key(table, check, notes);
+    preferences.overlays = by_key(overlays, |_| Ok(()), notes);
     let bindings: BindingsEntry = by_key(bindings, |_| Ok(()), notes);
     let changed = by_key(bindings.changed, |_| Ok(()), notes);
     preferences.bindings = Bindings::from_changes(bindings.preset, &changed, notes);

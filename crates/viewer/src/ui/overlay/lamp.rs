@@ -40,7 +40,8 @@ pub fn handles(
     let time = session.playback.time;
     let kind = scene.frame(time).lights.get(index).map(|light| light.kind);
     let is_free = session.editing.grip.is_none() && session.editing.modal.is_none();
-    let is_fitting = session.tool == Tool::Select || session.tool.entry().has_handles;
+    let is_fitting = session.preferences.overlays.lamps
+        && (session.tool == Tool::Select || session.tool.entry().has_handles);
     let (Some(kind), true, true) = (kind, is_free, is_fitting) else {
         session.editing.lamp = None;
         return false;

@@ -248,7 +248,7 @@ fn edit(menu: &mut Menu) {
     menu.entry_if(has_selection, "Deselect", A::SelectNothing);
     menu.line();
     menu.tools(ToolMenu::Edit);
-    let snaps = menu.context.session.snaps;
+    let snaps = menu.context.session.preferences.snaps;
     menu.tick(snaps, "Snapping", A::ToggleSnapping);
     let is_measured = !menu.context.session.tool_state.measurements().is_empty();
     menu.entry_if(is_measured, "Copy measurements", A::CopyMeasurements);
@@ -280,7 +280,7 @@ fn view(menu: &mut Menu) {
     menu.entry("Level horizon", A::Level);
     menu.entry("Walk", A::Walk);
     menu.line();
-    let mut overlays = menu.context.session.overlays;
+    let mut overlays = menu.context.session.preferences.overlays;
     for entry in Overlays::ALL {
         let is_shown = overlays.of(entry.action).is_some_and(|it| *it);
         menu.tick(is_shown, entry.title, entry.action);

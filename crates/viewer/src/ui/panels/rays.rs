@@ -71,7 +71,7 @@ fn pixel(ui: &mut egui::Ui, session: &mut Session) {
         }
         let follow = ui.checkbox(&mut session.inspector.follows, "Follow the cursor");
         follow.on_hover_text("With this tool, inspect the pixel under the cursor without a click");
-        let path = ui.checkbox(&mut session.shows_path, "Path in picture");
+        let path = ui.checkbox(&mut session.preferences.overlays.rays, "Path in picture");
         path.on_hover_text("Draw these rays over the picture while the inspector is active");
         if session.inspector.is_waiting() {
             ui.spinner();

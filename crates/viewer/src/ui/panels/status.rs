@@ -89,7 +89,7 @@ fn tool(ui: &mut egui::Ui, context: &PanelContext) {
 /// The size of the grid, and whether some edges are left out.
 fn drawn(ui: &mut egui::Ui, context: &PanelContext) {
     let session = &*context.session;
-    let (overlays, is_shown) = (session.overlays, session.shows_overlays);
+    let (overlays, is_shown) = (session.preferences.overlays, session.shows_overlays);
     if let Some(viewport) = session.viewport.filter(|_| overlays.grid && is_shown)
         && let Some(step) = ground::spacing(session, viewport)
     {

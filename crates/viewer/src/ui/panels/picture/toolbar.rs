@@ -215,7 +215,13 @@ fn region(ui: &mut Ui, session: &mut Session) {
 }
 
 fn snapping(ui: &mut Ui, session: &mut Session) {
-    let response = button(ui, Sign::Snapping, "Snapping", session.snaps, true);
+    let response = button(
+        ui,
+        Sign::Snapping,
+        "Snapping",
+        session.preferences.snaps,
+        true,
+    );
     let text = tip(session, Action::ToggleSnapping);
     let told = format!("{text}\nSteps of the grid, 15° and 0.1; Shift makes them finer.");
     if response.on_hover_text(told).clicked() {
@@ -233,7 +239,11 @@ fn overlays(ui: &mut Ui, session: &mut Session) {
     let stays = egui::PopupCloseBehavior::CloseOnClickOutside;
     Popup::menu(&response).close_behavior(stays).show(|ui| {
         for entry in Overlays::ALL {
-            let is_shown = session.overlays.of(entry.action).is_some_and(|it| *it);
+            let is_shown = session
+                .preferences
+                .overlays
+                .of(entry.action)
+                .is_some_and(|it| *it);
             let key = session.preferences.bindings.label(entry.action);
             let entry_button = egui::Button::selectable(is_shown, entry.title).shortcut_text(key);
             let response = ui.add(entry_button).accessible_name(entry.title);

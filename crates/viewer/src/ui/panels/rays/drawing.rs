@@ -9,7 +9,7 @@ use eframe::egui::{self, Color32, Pos2, Shape, Stroke, vec2};
 
 /// Draws the inspected rays over the picture at `viewport`, as its current camera sees them. After the camera has moved, they are still at their place in the scene.
 pub fn path(painter: &egui::Painter, session: &Session, viewport: Viewport) {
-    if !session.shows_path {
+    if !session.preferences.overlays.rays {
         return;
     }
     let lines = outside::path(session, viewport.extent());
