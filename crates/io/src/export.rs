@@ -107,7 +107,7 @@ pub fn native(
     let scene = match scene.deformations.is_empty() {
         true => scene,
         false => {
-            still = scene.at_rest();
+            still = scene.at_rest(0.0);
             &still
         }
     };

@@ -92,10 +92,10 @@ impl<'a> Posed<'a> {
 }
 
 impl Scene {
-    /// A copy of the scene with its deforming meshes in their pose at time 0, in which they stay.
-    pub fn at_rest(&self) -> Self {
+    /// A copy of the scene with its deforming meshes in their pose at `time`, in seconds, in which they stay.
+    pub fn at_rest(&self, time: f64) -> Self {
         let mut scene = self.clone();
-        let frame = self.frame(0.0);
+        let frame = self.frame(time);
         for (deformation, weights) in self.deformations.iter().zip(&frame.weights) {
             let source = &self.meshes[deformation.mesh];
             let pose = deformation.pose(&frame.nodes, weights);

@@ -76,6 +76,38 @@ pub enum CanonicalShape {
     Ellipsoid,
 }
 
+impl CanonicalShape {
+    /// A normal, of any length, at a point of the surface.
+    fn normal(self, p: DVec3) -> DVec3 {
+        match self {
+            Self::Disc { .. } | Self::Rectangle => DVec3::Y,
+            Self::Box => {
+                let size = p.abs();
+                let axis = [DVec3::X, DVec3::Y, DVec3::Z]
+                    .into_iter()
+                    .max_by(|a, b| size.dot(*a).total_cmp(&size.dot(*b)));
+                axis.unwrap_or(DVec3::Y) * p
+            }
+            Self::Cone {
+                bottom,
+                top,
+                capped,
+            } => {
+                let radius = bottom + (top - bottom) * p.y;
+                let from_axis = p.x.hypot(p.z);
+                let from_cap = p.y.abs().min((1.0 - p.y).abs());
+                match capped && from_cap < (from_axis - radius).abs() {
+                    true => DVec3::Y * (p.y - 0.5),
+                    // The gradient of x² + z² − radius².
+                    false => DVec3::new(p.x, (bottom - top) * radius, p.z),
+                }
+            }
+            Self::Torus { .. } => p - DVec3::new(p.x, 0.0, p.z).normalize_or_zero(),
+            Self::Ellipsoid => p,
+        }
+    }
+}
+
 impl Geometry {
     /// The kind in words, such as "sphere" or "cylinder".
     pub fn title(&self) -> &'static str {
@@ -103,6 +135,24 @@ impl Geometry {
                 canonical,
                 world_from_canonical,
             } => Some(placed_bounds(canonical, world_from_canonical)),
+        }
+    }
+
+    /// The unit normal at a point of the surface, pointing out of solids and to the front of others. A point at an edge has
+    /// the normal of one of its sides.
+    pub fn normal(&self, point: DVec3) -> DVec3 {
+        match *self {
+            Self::Sphere { center, .. } => (point - center).normalize_or_zero(),
+            Self::Plane { normal, .. } => normal,
+            Self::Placed {
+                canonical,
+                world_from_canonical,
+            } => {
+                let canonical_from_world = world_from_canonical.inverse();
+                let normal = canonical.normal(canonical_from_world.transform_point3(point));
+                let normal = canonical_from_world.matrix3.transpose() * normal;
+                normal.normalize_or_zero()
+            }
         }
     }
 

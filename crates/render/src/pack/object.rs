@@ -80,6 +80,24 @@ impl PackedScene {
         Some(ObjectRef::Instance(*index))
     }
 
+    /// The corners of a hit triangle, as indices into the vertices of its mesh; `primitive` and `instance` are those of
+    /// [`Self::object_at`]. `None` for a shape, or if the index does not exist.
+    pub fn corners_at(&self, primitive: u32, instance: u32) -> Option<[u32; 3]> {
+        let is_shape = primitive & SHAPE != 0;
+        let triangle = self.triangles.get(primitive as usize)?;
+        let last = |count: usize| count.checked_sub(1).filter(|_| !is_shape);
+        let first_vertex = if instance == NO_INSTANCE {
+            let baked = &self.origins.baked;
+            let count = baked.partition_point(|(first_vertex, _)| *first_vertex <= triangle.i0);
+            baked[last(count)?].0
+        } else {
+            let trees = &self.trees.instanced;
+            let count = trees.partition_point(|tree| tree.blas.offsets.triangle <= primitive);
+            trees[last(count)?].blas.offsets.vertex
+        };
+        Some([triangle.i0, triangle.i1, triangle.i2].map(|vertex| vertex - first_vertex))
+    }
+
     /// The numbers of instances and of shapes of the scene.
     pub fn object_counts(&self) -> (usize, usize) {
         let Origins {

@@ -188,7 +188,7 @@ fn values_that_are_out_of_range_are_refused() {
 fn a_gltf_model_keeps_its_materials() {
     let model = Path::new("assets/scenes/flower.glb");
     // The model moves; native scenes keep its pose.
-    let mut scene = import::load(model).expect("a model").at_rest();
+    let mut scene = import::load(model).expect("a model").at_rest(0.0);
     scene.clips.clear();
     loss(&scene).unwrap_or_else(|lost| panic!("{lost}"));
     let text = round(&scene).expect("a scene").1.text;
