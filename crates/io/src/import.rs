@@ -156,8 +156,8 @@ fn load_seen(
     Ok(scene)
 }
 
-/// Loads the scene `name` from `resolver`, which also provides the files that it refers to. Only the
-/// overrides of `options` apply: the resolver decides which folders are accessible.
+/// Loads the scene `name` from `resolver`, which also provides the files that it refers to and decides which folders are
+/// accessible. A file that [`Options::environment`] names is on the disk; browsers have none and leave the environment out.
 ///
 /// # Errors
 /// See [`load_with`].
@@ -186,11 +186,18 @@ pub fn load_from(
     let bytes = resolver.read(&path, format.max_bytes);
     let bytes = bytes.map_err(|error| format.unreadable(&path, &error))?;
     let files = Files::of(resolver).named_in(&path);
-    let options = Options {
+    #[cfg(target_arch = "wasm32")]
+    let options = &Options {
         environment: Environment::default(),
         ..options.clone()
     };
-    format.scene(&path, bytes, &options, &files)
+    let scene = format.scene(&path, bytes, options, &files);
+    #[cfg(not(target_arch = "wasm32"))]
+    let scene = scene.and_then(|mut scene| {
+        environment::apply(&mut scene, &path, options, &|_| ())?;
+        Ok(scene)
+    });
+    scene
 }
 
 /// Parses the scene in `text`, which must not refer to files. `name` stands for the file's path in

@@ -94,14 +94,22 @@ pub fn save_with(
     atomic::write(path, &bytes, options.clobber, options.follow_links)
 }
 
+/// The bytes of a file with `image`, as PNG unless `options` names a format.
+///
+/// # Errors
+/// An image too large for its format.
+pub fn encoded(image: &Image, options: &SaveOptions) -> Result<Vec<u8>, OutputError> {
+    let format = options.format.unwrap_or(Format::Png);
+    format.check_size(image.width, image.height)?;
+    encode::encode(image, format, options)
+}
+
 /// Writes `image` to standard output, as PNG unless `options` names a format.
 ///
 /// # Errors
 /// An image too large for its format, or a closed standard output.
 pub fn save_to_stdout(image: &Image, options: &SaveOptions) -> Result<(), OutputError> {
-    let format = options.format.unwrap_or(Format::Png);
-    format.check_size(image.width, image.height)?;
-    let bytes = encode::encode(image, format, options)?;
+    let bytes = encoded(image, options)?;
     let mut stdout = io::stdout().lock();
     stdout
         .write_all(&bytes)

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 impl Environment {
     /// The file that it is read from.
-    pub(super) fn file(&self) -> Option<&Path> {
+    pub fn file(&self) -> Option<&Path> {
         match &self.source {
             Some(EnvironmentSource::File(path)) => Some(path),
             Some(EnvironmentSource::Sky { .. } | EnvironmentSource::BuiltIn(_)) | None => None,
