@@ -1,9 +1,11 @@
 //! Messages on standard error and results on standard output. Failures to write messages are ignored;
 //! failures to write results are errors.
 //!
-//! With `--progress json` every line on standard error is a JSON object.
+//! With `--progress json` every line on standard error is a JSON object. A host takes warnings and results instead, and
+//! status lines are left out.
 
 use super::error::AppError;
+use super::host;
 use glimray_scene::text;
 use serde_json::{Value, json};
 use std::fmt::Display;
@@ -57,6 +59,9 @@ pub fn is_json() -> bool {
 }
 
 fn note(text: impl Display) {
+    if host::current().is_some() {
+        return;
+    }
     let text = text.to_string();
     match is_json() {
         true => json_line(&json!({ "note": text })),
@@ -77,9 +82,10 @@ pub fn quoted(name: &str) -> String {
 /// Prints a warning.
 pub fn warning(text: impl Display) {
     let text = text.to_string();
-    match is_json() {
-        true => json_line(&json!({ "warning": text })),
-        false => line("warning:", YELLOW, &format!(" {text}")),
+    match host::current() {
+        Some(host) => host.warn(&text),
+        None if is_json() => json_line(&json!({ "warning": text })),
+        None => line("warning:", YELLOW, &format!(" {text}")),
     }
 }
 
@@ -194,6 +200,10 @@ pub fn print(text: &str) -> Result<(), AppError> {
 /// # Errors
 /// As [`print()`].
 pub fn print_bytes(bytes: &[u8]) -> Result<(), AppError> {
+    if let Some(host) = host::current() {
+        host.print(bytes);
+        return Ok(());
+    }
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(AppError::Stdout(error)),

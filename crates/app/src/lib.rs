@@ -9,6 +9,7 @@ pub mod false_color;
 pub mod flag_values;
 pub mod flip;
 pub mod folders;
+pub mod host;
 pub mod inputs;
 pub mod layer_picture;
 pub mod layers;

@@ -126,7 +126,7 @@ impl<'a> Sequence<'a> {
     /// absent.
     pub fn run(&self, draft: &mut Draft) -> Result<(), AppError> {
         let interrupt = Interrupt::install()?;
-        self.job.warn_of_skipped();
+        self.job.warn_of_skipped()?;
         let settings = self.job.settings();
         let files = self.target.frames.as_ref();
         (self.job).check_format(

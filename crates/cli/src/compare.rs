@@ -7,8 +7,9 @@ mod limits;
 
 use crate::args::CompareArgs;
 use crate::interrupt::Interrupt;
+pub use figures::Figures;
+
 use comparison::Comparison;
-use figures::Figures;
 use folders::Folders;
 use glimray_app::console;
 use glimray_app::error::AppError;

@@ -6,12 +6,17 @@ use crate::interrupt::Interrupt;
 use crate::scene_file;
 use glimray_app::console;
 use glimray_app::error::AppError;
+use glimray_app::inputs::Inputs;
 use glimray_app::scene_file::save;
 use glimray_io::import::{Baking, Options};
+use glimray_scene::Scene;
 use std::path::PathBuf;
 
-pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
-    Interrupt::install()?;
+/// The scene to convert, and the files that it was read from. Warns about what a native scene cannot keep.
+///
+/// # Errors
+/// The scene is refused.
+pub fn scene(arguments: &ConvertArgs) -> Result<(Scene, Inputs), AppError> {
     idle_flags::check(&arguments.reading, &arguments.scene)?;
     let options = Options {
         baking: Baking::Never,
@@ -19,6 +24,17 @@ pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
     };
     let (scene, inputs) = scene_file::load(&arguments.scene, &options, arguments.reading.strict);
     let scene = scene?;
+    if !scene.deformations.is_empty() {
+        console::warning(
+            "meshes with skins or animated morph targets are written in their pose at time 0: a native \
+             scene has no deforming meshes",
+        );
+    }
+    Ok((scene, inputs))
+}
+
+pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
+    Interrupt::install()?;
     let stem = arguments.scene.file_stem().unwrap_or("scene".as_ref());
     // `with_extension` would cut a stem that contains a dot.
     let default = || {
@@ -37,13 +53,8 @@ pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
             path.display()
         )));
     }
+    let (scene, inputs) = scene(arguments)?;
     inputs.refuse_overwrite(&path, "scene", "-o")?;
-    if !scene.deformations.is_empty() {
-        console::warning(
-            "meshes with skins or animated morph targets are written in their pose at time 0: a native \
-             scene has no deforming meshes",
-        );
-    }
     let files = save(&path, &scene, !arguments.no_clobber)?;
     let list = files.iter().map(|path| format!("{}\n", path.display()));
     console::print(&list.collect::<String>())

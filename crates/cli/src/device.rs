@@ -5,6 +5,7 @@ use crate::memory;
 use crate::report::FetchReport;
 use glimray_app::console;
 use glimray_app::error::AppError;
+use glimray_app::host;
 use glimray_app::storage;
 use glimray_render::gpu::{AdapterChoice, AdapterReport, Backend, Gpu};
 use glimray_render::pack::{self, PackedScene, PackedView};
@@ -22,14 +23,15 @@ pub struct Opening {
 }
 
 impl Opening {
-    /// Starts to open the adapter that the flags choose, unless the process has a memory limit: what the driver reserves
-    /// would then count against the scene.
+    /// Starts to open the adapter that the flags choose, unless a host may have it open, or the process has a memory limit:
+    /// what the driver reserves would then count against the scene.
     pub fn start(flags: &DeviceFlags) -> Self {
         let choice = flags.choice();
         let own = choice.clone();
         Self {
             choice,
-            thread: (!memory::is_limited()).then(|| thread::spawn(move || chosen(&own))),
+            thread: (!memory::is_limited() && host::current().is_none())
+                .then(|| thread::spawn(move || chosen(&own))),
         }
     }
 
@@ -63,7 +65,10 @@ pub fn open(flags: &DeviceFlags) -> Result<Gpu, AppError> {
 
 fn chosen(choice: &AdapterChoice) -> Result<Gpu, AppError> {
     storage::requested()?;
-    Ok(Gpu::new(choice)?)
+    match host::current() {
+        Some(host) => host.gpu(choice),
+        None => Ok(Gpu::new(choice)?),
+    }
 }
 
 /// A renderer of a packed scene; `tone` is compiled beside it.

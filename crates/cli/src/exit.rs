@@ -43,7 +43,7 @@ pub fn command_line(error: &clap::Error) -> ExitCode {
 }
 
 /// Clap's error message in one line, without the usage and the pointer to the help.
-fn one_line(text: &str) -> String {
+pub fn one_line(text: &str) -> String {
     let ends = ["\n\nUsage:", "\n\nFor more information"].map(|end| text.find(end));
     let end = ends.into_iter().flatten().min().unwrap_or(text.len());
     let text = &text[..end];

@@ -36,7 +36,7 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     for skipped in &scene.skipped {
         console::warning(skipped);
     }
-    idle_flags::warn(&arguments.picture, &settings);
+    idle_flags::warn(&arguments.picture, &settings)?;
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());
     let shutter = clock.moment(&arguments.moment.moment());
     memory::check_scene(

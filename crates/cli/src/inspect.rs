@@ -25,13 +25,21 @@ use std::fmt::{self, Write};
 /// Largest number of list items in the text output; JSON lists all.
 const MAX_LISTED: usize = 20;
 
-pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
+/// The scene to look at.
+///
+/// # Errors
+/// The scene is refused.
+pub fn scene(arguments: &InspectArgs) -> Result<Scene, AppError> {
     idle_flags::check(&arguments.reading, &arguments.scene)?;
     let options = Options {
         baking: Baking::Never,
         ..(arguments.reading).import_options(arguments.axis.up, false, &PictureFlags::default())
     };
-    let scene = scene_file::load(&arguments.scene, &options, arguments.reading.strict).0?;
+    scene_file::load(&arguments.scene, &options, arguments.reading.strict).0
+}
+
+pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
+    let scene = scene(arguments)?;
     let path = arguments.scene.display().to_string();
     if arguments.json {
         let value = serde_json::to_value(Inspection::new(&path, &scene))

@@ -5,9 +5,12 @@
 //! itself. If it is stuck in the driver or in a pipe that nobody reads, or at a second signal, the thread
 //! ends the program. Writing a checkpoint ([`Interrupt::saving`]) may take longer. Either way no partial file
 //! is left.
+//!
+//! Signals belong to the host of a command, where there is one, and the work asks it.
 
 use glimray_app::console;
 use glimray_app::error::AppError;
+use glimray_app::host;
 use glimray_io::output;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::{flag, low_level};
@@ -58,6 +61,9 @@ impl Interrupt {
     /// The system refuses a handler or the thread.
     pub fn install() -> Result<Self, AppError> {
         static INSTALLED: OnceLock<Interrupt> = OnceLock::new();
+        if host::current().is_some() {
+            return Ok(Self(Arc::default()));
+        }
         if let Some(installed) = INSTALLED.get() {
             return Ok(installed.clone());
         }
@@ -93,8 +99,13 @@ impl Interrupt {
     /// Checks for a signal. To be called between two steps.
     ///
     /// # Errors
-    /// [`AppError::Interrupted`] if a signal has requested termination.
+    /// [`AppError::Interrupted`] if a signal or the host has requested termination.
     pub fn check(&self) -> Result<(), AppError> {
+        if host::current().is_some_and(|host| host.is_stopped()) {
+            return Err(AppError::Interrupted {
+                exit_code: SIGNALS[0].1,
+            });
+        }
         match u8::try_from(self.0.exit_code.load(Ordering::SeqCst)) {
             Ok(0) => Ok(()),
             Ok(exit_code) => Err(AppError::Interrupted { exit_code }),

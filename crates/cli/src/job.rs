@@ -16,6 +16,7 @@ use glimray_app::advice::UNLIT;
 use glimray_app::console;
 use glimray_app::console::Console;
 use glimray_app::error::AppError;
+use glimray_app::host;
 use glimray_app::inputs;
 use glimray_app::overrides;
 use glimray_app::value_names::BSDF_MODELS;
@@ -58,7 +59,10 @@ impl Job<'_> {
     }
 
     /// Warns about skipped parts of the scene (and with --verbose tells its remarks), missing lights, materials that paths change and flags without effect.
-    pub fn warn_of_skipped(&self) {
+    ///
+    /// # Errors
+    /// As [`idle_flags::warn`].
+    pub fn warn_of_skipped(&self) -> Result<(), AppError> {
         for skipped in &self.scene.skipped {
             console::warning(skipped);
         }
@@ -73,7 +77,7 @@ impl Job<'_> {
                 of(0)
             ));
         }
-        idle_flags::warn(self.picture, &self.settings());
+        idle_flags::warn(self.picture, &self.settings())?;
         if self.is_unlit() {
             console::warning(UNLIT);
         }
@@ -91,6 +95,7 @@ impl Job<'_> {
                 console::quoted(&first.name)
             ));
         }
+        Ok(())
     }
 
     /// Whether all surfaces are black for lack of light. Only paths find that of the background on every surface.
@@ -152,7 +157,10 @@ impl Job<'_> {
     }
 
     /// Refuses a transparent background that the integrator cannot render, or that the file does not keep.
-    fn check_backdrop(
+    ///
+    /// # Errors
+    /// Such a picture.
+    pub fn check_backdrop(
         settings: &RenderSettings,
         path: &Path,
         takes_opacity: bool,
@@ -304,9 +312,13 @@ impl Job<'_> {
             error: (),
         };
         details(self.console(), settings, &report);
-        match &self.log.report {
-            Some(path) => report::write(path, AnyReport::Done(&report)),
-            None => Ok(()),
+        match (host::current(), &self.log.report) {
+            (Some(host), _) => {
+                host.report(&report::text(AnyReport::Done(&report))?);
+                Ok(())
+            }
+            (None, Some(path)) => report::write(path, AnyReport::Done(&report)),
+            (None, None) => Ok(()),
         }
     }
 }

@@ -56,6 +56,14 @@ impl Finished {
         }
     }
 
+    /// The bytes of a file of one layer.
+    ///
+    /// # Errors
+    /// The picture is too large for the format.
+    pub fn encoded(&self, options: &SaveOptions) -> Result<Vec<u8>, OutputError> {
+        output::encoded(&self.image, &self.options(options))
+    }
+
     /// Writes the picture to standard output.
     pub fn save_to_stdout(&self, options: &SaveOptions) -> Result<(), OutputError> {
         let options = &self.options(options);

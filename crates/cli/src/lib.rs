@@ -1,5 +1,5 @@
 //! The command line: one file per command, and the code they share. Nothing below this module prints, exits
-//! or reads arguments.
+//! or reads arguments. [`embedded`] runs commands for another program in its own process.
 
 mod animate;
 mod args;
@@ -13,6 +13,7 @@ mod demo;
 mod destination;
 mod device;
 mod doctor;
+pub mod embedded;
 pub mod exit;
 mod explain;
 #[cfg(feature = "archive")]

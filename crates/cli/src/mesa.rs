@@ -29,12 +29,10 @@ use std::{
 #[cfg(target_os = "linux")]
 const INDEX_SIZE: u64 = 8 + (20 << 16);
 
-/// Replaces this process by one with the variables that are missing. Returns if there are none, or if the program
-/// cannot be executed again. Variables that are set stay as they are, but for a width with which the window would
+/// The variables that are missing. Variables that are set stay as they are, but for a width with which the window would
 /// crash, and a folder of kernels, in which those of this width get one of their own. Warns if there is no space for them.
 #[cfg(target_os = "linux")]
-pub fn set_environment(opens_window: bool) {
-    use std::os::unix::process::CommandExt as _;
+pub fn missing(opens_window: bool) -> Vec<(&'static str, OsString)> {
     let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
     let has_no_session = value("XDG_RUNTIME_DIR").is_none() && value("NODEVICE_SELECT").is_none();
     let given = value("LP_NATIVE_VECTOR_WIDTH").and_then(|width| width.into_string().ok());
@@ -67,9 +65,17 @@ pub fn set_environment(opens_window: bool) {
             has_no_space.then(|| OsString::from("true")),
         ),
     ];
-    let missing: Vec<_> = (wanted.into_iter())
+    (wanted.into_iter())
         .filter_map(|(name, value)| Some((name, value?)))
-        .collect();
+        .collect()
+}
+
+/// Replaces this process by one with the variables that are [`missing`]. Returns if there are none, or if the program
+/// cannot be executed again.
+#[cfg(target_os = "linux")]
+pub fn set_environment(opens_window: bool) {
+    use std::os::unix::process::CommandExt as _;
+    let missing = missing(opens_window);
     let Ok(program) = std::env::current_exe() else {
         return;
     };
@@ -155,6 +161,12 @@ fn processor() -> String {
 /// Other systems have no such layer, and no lavapipe.
 #[cfg(not(target_os = "linux"))]
 pub fn set_environment(_opens_window: bool) {}
+
+/// None, as other systems have no lavapipe.
+#[cfg(not(target_os = "linux"))]
+pub fn missing(_opens_window: bool) -> Vec<(&'static str, std::ffi::OsString)> {
+    Vec::new()
+}
 
 /// Whether the processor has vectors of 512 bits, with all instructions that Mesa's compiler uses for them.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]

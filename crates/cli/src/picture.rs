@@ -13,7 +13,9 @@ use crate::report::Draft;
 use glimray_app::error::AppError;
 use glimray_app::legend;
 use glimray_app::overrides::picture_size;
-use glimray_render::{self as render, FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
+use glimray_render::{
+    self as render, FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK, Tone,
+};
 use std::ops::Range;
 use std::panic::resume_unwind;
 use std::thread;
@@ -33,7 +35,7 @@ pub fn run(
     draft: &mut Draft,
 ) -> Result<(), AppError> {
     let interrupt = Interrupt::install()?;
-    job.warn_of_skipped();
+    job.warn_of_skipped()?;
     let settings = job.settings();
     let settings = RenderSettings {
         sample_range: range(part, destination, &settings)?,
@@ -54,32 +56,9 @@ pub fn run(
     job.check_report(draft)?;
     let mut checkpoint = CheckpointFile::new(&part.checkpoint, destination.path(), draft)?;
 
-    job.check_memory(size, draft)?;
-    let started = Instant::now();
-    let (gpu, packed) = thread::scope(|scope| {
-        let packing = scope.spawn(|| {
-            let packed = device::packed(&job.scene, shutter)?;
-            let policy = job.policy();
-            let module = match memory::is_limited() {
-                true => None,
-                false => render::early_module(&packed.0, &packed.1, &settings, &policy),
-            };
-            Ok::<_, AppError>((packed, module))
-        });
-        let gpu = opening.wait()?;
-        draft.adapter = Some(gpu.adapter().into());
-        job.announce("", &settings, gpu.adapter());
-        let (packed, module) = packing
-            .join()
-            .unwrap_or_else(|panic| resume_unwind(panic))?;
-        Ok::<_, AppError>((gpu.with_early_module(module), packed))
-    })?;
-    draft.seconds.bvh = packed.0.build_seconds;
-    draft.seconds.gpu = (started.elapsed().as_secs_f64() - draft.seconds.bvh).max(0.0);
     let tone = job.tone(&settings, destination.is_linear());
     let tone = (!destination.is_film()).then_some(tone);
-    let mut renderer = device::prepared(gpu, packed, settings.clone(), job.policy(), tone)?;
-    draft.fetch = Some(device::fetch_report(&renderer)?);
+    let mut renderer = prepared(job, opening, shutter, &settings, tone, draft)?;
     if let Some(checkpoint) = &mut checkpoint {
         draft.resumed = checkpoint.resume(&mut renderer, job.console())?;
     }
@@ -127,6 +106,47 @@ pub fn run(
     )
 }
 
+/// The renderer of a scene while the shutter is open, from `shutter.0` to `shutter.1` in seconds. The scene is packed while
+/// the adapter is being opened; `tone` is compiled beside the kernels.
+///
+/// # Errors
+/// The scene takes too much memory or cannot be packed, or the adapter cannot be opened or cannot render it.
+pub fn prepared(
+    job: &Job,
+    opening: Opening,
+    shutter: (f64, f64),
+    settings: &RenderSettings,
+    tone: Option<Tone>,
+    draft: &mut Draft,
+) -> Result<Renderer, AppError> {
+    let size = picture_size(settings)?;
+    job.check_memory(size, draft)?;
+    let started = Instant::now();
+    let (gpu, packed) = thread::scope(|scope| {
+        let packing = scope.spawn(|| {
+            let packed = device::packed(&job.scene, shutter)?;
+            let policy = job.policy();
+            let module = match memory::is_limited() {
+                true => None,
+                false => render::early_module(&packed.0, &packed.1, settings, &policy),
+            };
+            Ok::<_, AppError>((packed, module))
+        });
+        let gpu = opening.wait()?;
+        draft.adapter = Some(gpu.adapter().into());
+        job.announce("", settings, gpu.adapter());
+        let (packed, module) = packing
+            .join()
+            .unwrap_or_else(|panic| resume_unwind(panic))?;
+        Ok::<_, AppError>((gpu.with_early_module(module), packed))
+    })?;
+    draft.seconds.bvh = packed.0.build_seconds;
+    draft.seconds.gpu = (started.elapsed().as_secs_f64() - draft.seconds.bvh).max(0.0);
+    let renderer = device::prepared(gpu, packed, settings.clone(), job.policy(), tone)?;
+    draft.fetch = Some(device::fetch_report(&renderer)?);
+    Ok(renderer)
+}
+
 /// The sample range that the flags select; `None` for all samples.
 fn range(
     part: &PartFlags,
@@ -169,7 +189,11 @@ fn range(
     Ok(Some(start..end))
 }
 
-fn trace(
+/// Renders all samples.
+///
+/// # Errors
+/// The device fails, or the work was interrupted.
+pub fn trace(
     job: &Job,
     renderer: &mut Renderer,
     interrupt: &Interrupt,
@@ -204,7 +228,10 @@ fn write(
         destination.save_film(&film)?;
         started
     } else {
-        let picture = develop(job, renderer, settings, destination, interrupt)?;
+        let tone = job.tone(settings, destination.is_linear());
+        let takes_layers = destination.takes_layers();
+        let picture = develop(job, renderer, settings, &tone, takes_layers)?;
+        interrupt.check()?;
         draft.seconds.denoise = picture.denoise_seconds();
         let started = Instant::now();
         destination.save(&picture)?;
@@ -214,18 +241,20 @@ fn write(
     Ok(())
 }
 
-fn develop(
+/// The finished picture. Warns if it is black, and tells the range of a quantity that it shows.
+///
+/// # Errors
+/// The device fails.
+pub fn develop(
     job: &Job,
     renderer: &mut Renderer,
     settings: &RenderSettings,
-    destination: &Destination,
-    interrupt: &Interrupt,
+    tone: &Tone,
+    takes_layers: bool,
 ) -> Result<Finished, AppError> {
-    let tone = job.tone(settings, destination.is_linear());
-    let image = job.finish(renderer, &tone, destination.takes_layers())?;
-    interrupt.check()?;
-    if job.is_black(&image.image, &tone, settings) {
-        job.warn_of_darkness(&tone, settings);
+    let image = job.finish(renderer, tone, takes_layers)?;
+    if job.is_black(&image.image, tone, settings) {
+        job.warn_of_darkness(tone, settings);
     }
     if let (Levels::Found, Some(quantity)) = (tone.levels, settings.integrator.quantity())
         && let Some(range) = renderer.range()?

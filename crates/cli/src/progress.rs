@@ -1,7 +1,9 @@
-//! Progress of a picture or an animation: a bar on a terminal, JSON lines, or nothing; and once how long it will take.
+//! Progress of a picture or an animation: a bar on a terminal, JSON lines, calls of a host, or nothing; and once how long
+//! it will take.
 
 use crate::args::{LogFlags, ProgressMode};
 use glimray_app::console::{self, Console};
+use glimray_app::host;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -179,12 +181,14 @@ enum Display {
     Nothing,
     Bar(ProgressBar),
     Json { next: Instant },
+    Host,
 }
 
 impl Display {
     fn new(flags: &LogFlags, template: &str) -> Self {
         let terminal = std::io::stderr().is_terminal();
         match flags.progress {
+            _ if host::current().is_some() => Self::Host,
             ProgressMode::Auto if terminal && !flags.quiet => Self::Bar(bar(template)),
             ProgressMode::Bar => Self::Bar(bar(template)),
             ProgressMode::Json => Self::Json {
@@ -198,7 +202,7 @@ impl Display {
     fn say(&self, estimate: &Estimate, text: &str) {
         match self {
             Self::Bar(bar) => bar.suspend(|| estimate.console.status(text)),
-            Self::Nothing | Self::Json { .. } => estimate.console.status(text),
+            Self::Nothing | Self::Json { .. } | Self::Host => estimate.console.status(text),
         }
     }
 
@@ -211,6 +215,11 @@ impl Display {
     ) {
         match self {
             Self::Nothing => {}
+            Self::Host => {
+                if let Some(host) = host::current() {
+                    host.progress(done);
+                }
+            }
             Self::Bar(bar) => {
                 bar.set_message(message());
                 bar.set_position((done * STEPS as f64) as u64);

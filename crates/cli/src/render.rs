@@ -30,6 +30,18 @@ fn render(
 ) -> Result<(), AppError> {
     idle_flags::check(&arguments.reading, &arguments.scene)?;
     let opening = Opening::start(&arguments.device);
+    let (job, shutter) = job(arguments, draft)?;
+    picture::run(&job, opening, destination, shutter, &arguments.part, draft)
+}
+
+/// The scene with the options of the command line, and when the shutter opens and closes, in seconds.
+///
+/// # Errors
+/// The scene is refused, or flags do not fit it.
+pub fn job<'a>(
+    arguments: &'a RenderArgs,
+    draft: &mut Draft,
+) -> Result<(Job<'a>, (f64, f64)), AppError> {
     let options = (arguments.camera).import_options(&arguments.reading, &arguments.picture);
     let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     arguments
@@ -45,5 +57,5 @@ fn render(
         log: &arguments.log,
         layers: &arguments.layers,
     };
-    picture::run(&job, opening, destination, shutter, &arguments.part, draft)
+    Ok((job, shutter))
 }

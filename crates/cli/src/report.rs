@@ -290,15 +290,23 @@ impl From<&Stats> for Submissions {
 /// # Errors
 /// The report cannot be written.
 pub fn write(path: &Path, report: AnyReport) -> Result<(), AppError> {
-    let mut text = serde_json::to_string_pretty(&report)
-        .map_err(|error| AppError::Internal(format!("report: {error}")))?;
-    text.push('\n');
-    let text = text::escape_json(&text);
+    let text = text(report)?;
     if path == Path::new("-") {
         console::print_bytes(text.as_bytes())
     } else {
         Ok(output::write(path, text.as_bytes(), true)?)
     }
+}
+
+/// A report as JSON.
+///
+/// # Errors
+/// A bug: reports can be written as JSON.
+pub fn text(report: AnyReport) -> Result<String, AppError> {
+    let mut text = serde_json::to_string_pretty(&report)
+        .map_err(|error| AppError::Internal(format!("report: {error}")))?;
+    text.push('\n');
+    Ok(text::escape_json(&text))
 }
 
 /// Peak resident memory of this process in bytes. Only Linux reports it.

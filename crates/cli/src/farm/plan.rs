@@ -75,7 +75,7 @@ pub fn run(
         log: &arguments.log,
         layers: &arguments.layers,
     };
-    job.warn_of_skipped();
+    job.warn_of_skipped()?;
     target.check(&job, arguments, timeline.as_ref())?;
     let settings = job.settings();
     let path = arguments.scene.display().to_string();
