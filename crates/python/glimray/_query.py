@@ -1,0 +1,123 @@
+"""Ray queries: what rays hit, without a picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from . import _native
+from ._errors import SceneError
+from ._scene import as_source
+from ._session import arguments, prepare
+
+
+@dataclass(frozen=True)
+class Hits:
+    """The closest hits of N rays. Rays that hit nothing have an infinite distance, and -1 as object and triangle."""
+
+    distances: Any
+    """From the origin, in scene units: (N,), float32."""
+    objects: Any
+    """Numbers of objects, from 0: (N,), int32. ``RayQuery.names`` has their names."""
+    triangles: Any
+    """Numbers of triangles in the mesh of the object: (N,), int32; -1 for shapes such as spheres."""
+    normals: Any
+    """Unit normals in world space, of the front of a triangle or the outside of a shape: (N, 3), float32."""
+
+    @property
+    def hit(self) -> Any:
+        """Whether each ray hit something: (N,), bool."""
+        return self.objects >= 0
+
+
+class RayQuery:
+    """Traces rays through a scene that stays on the device.
+
+    Args:
+        scene: As for ``render``. Nothing is added to a model.
+        time: The moment of an animation, in seconds.
+        adapter: The number or a part of the name of a GPU adapter.
+        **settings: Keywords of ``glimray inspect``, such as ``up`` and ``clip``.
+
+    Raises:
+        SceneError: The scene is refused.
+        NoAdapter: There is no GPU adapter.
+
+    Attributes:
+        names: Names of the objects by number.
+
+    >>> query = RayQuery(mesh)
+    >>> hits = query.closest([[0, 0, 5]], [[0, 0, -1]])
+    >>> hits.distances, hits.triangles, hits.normals
+    """
+
+    def __init__(self, scene: Any, *, time: float = 0.0, adapter: str | None = None, **settings: Any) -> None:
+        name, files = as_source(scene)
+        if "bare" in _known() and not name.endswith((".toml", ".scene", ".nff")):
+            settings.setdefault("bare", True)
+        words = arguments("inspect", name, settings, "RayQuery")
+        prepare()
+        self._native = _native.RayQuery(words, files, float(time), adapter)
+        self.names: list[str] = self._native.names()
+
+    def closest(self, origins: Any, directions: Any, t_max: Any = None, *, coherent: bool = False) -> Hits:
+        """The closest hit of each ray.
+
+        Args:
+            origins: (N, 3), in scene units.
+            directions: (N, 3), of any length but 0.
+            t_max: (N,) or one number: hits at this distance or beyond do not count.
+            coherent: Whether rays that follow each other start close together or go to the same place, such as those of a
+                camera. They are then traced in packets, which is faster for such rays only.
+
+        Raises:
+            SceneError: The shapes do not fit each other, or a ray is not finite.
+        """
+        import numpy as np
+
+        rows = _rows(origins, directions, t_max)
+        found = self._call(self._native.closest, rows, coherent)
+        distances, objects, triangles, normals = found
+        return Hits(
+            np.frombuffer(distances, np.float32),
+            np.frombuffer(objects, np.int32),
+            np.frombuffer(triangles, np.int32),
+            np.frombuffer(normals, np.float32).reshape(-1, 3),
+        )
+
+    def occluded(self, origins: Any, directions: Any, t_max: Any = None, *, coherent: bool = False) -> Any:
+        """Whether something is in the way of each ray: (N,), bool. Arguments and errors as for ``closest``."""
+        import numpy as np
+
+        rows = _rows(origins, directions, t_max)
+        return np.frombuffer(self._call(self._native.occluded, rows, coherent), np.bool_)
+
+    @staticmethod
+    def _call(function: Any, rows: tuple[Any, ...], coherent: bool) -> Any:
+        try:
+            return function(*rows, coherent)
+        except ValueError as error:
+            if isinstance(error, SceneError):
+                raise
+            raise SceneError(str(error)) from None
+
+
+def _known() -> dict[str, Any]:
+    from ._session import keywords
+
+    return keywords("inspect")
+
+
+def _rows(origins: Any, directions: Any, t_max: Any) -> tuple[bytes, bytes, bytes | None]:
+    import numpy as np
+
+    origins, directions = np.asarray(origins, np.float64), np.asarray(directions, np.float64)
+    for name, rows in (("origins", origins), ("directions", directions)):
+        if rows.ndim != 2 or rows.shape[1] != 3:
+            raise SceneError(f"bad rays ({name}): an array of {rows.shape}. Give (N, 3).")
+    if len(origins) != len(directions):
+        raise SceneError(f"bad rays: {len(origins)} origins for {len(directions)} directions. Give one for each.")
+    ends = None
+    if t_max is not None:
+        ends = np.broadcast_to(np.asarray(t_max, np.float32), (len(origins),)).tobytes()
+    return origins.tobytes(), directions.tobytes(), ends
