@@ -20,6 +20,7 @@ const PACKAGES: &[(&str, &[&str])] = &[
     ("app", &["io", "render", "scene"]),
     ("cli", &["app", "io", "render", "scene"]),
     ("viewer", &["app", "io", "render", "scene"]),
+    ("python", &["app", "cli", "io", "render", "scene"]),
     ("", &["cli", "io", "render", "scene", "viewer"]),
 ];
 
@@ -65,6 +66,7 @@ const MODULES: &[(&str, &str, &[&str])] = &[
     ),
     ("cli", "cli", ABOVE_APP),
     ("viewer", "viewer", ABOVE_APP),
+    ("python", "python", &["*"]),
     ("", "main", &["*"]),
     ("", "lib", &["*"]),
     ("", "picture", &["*"]),

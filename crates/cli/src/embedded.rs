@@ -107,11 +107,11 @@ pub fn keywords(command: &str) -> Vec<Keyword> {
 
 /// Environment variables for Mesa's drivers that are missing: see `mesa.rs`. They must be set before the first device is
 /// opened. None are missing if this process has lavapipe already, which then has read them.
-pub fn driver_environment() -> Vec<(&'static str, OsString)> {
+pub fn driver_environment(host: Rc<dyn Host>) -> Vec<(&'static str, OsString)> {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap_or_default();
     match maps.contains("libvulkan_lvp") {
         true => Vec::new(),
-        false => mesa::missing(false),
+        false => host::with(host, || mesa::missing(false)),
     }
 }
 
@@ -205,14 +205,8 @@ impl Picture {
         draft.set_image(job.image(nowhere, &settings, size));
         let tone = job.tone(&settings, false);
         let opening = Opening::start(&arguments.device);
-        let mut renderer = picture::prepared(
-            &job,
-            opening,
-            shutter,
-            &settings,
-            Some(tone.clone()),
-            &mut draft,
-        )?;
+        let mut renderer =
+            picture::prepared(&job, opening, shutter, &settings, Some(tone), &mut draft)?;
         picture::trace(&job, &mut renderer, &interrupt, None)?;
         draft.catcher_light = renderer.catcher_light()?;
         let display = picture::develop(&job, &mut renderer, &settings, &tone, false)?;

@@ -8,7 +8,11 @@ from typing import Any
 from . import _native
 from ._errors import SceneError
 from ._scene import as_source
-from ._session import arguments, prepare
+from ._session import arguments, call
+
+
+# As the native part writes it.
+_ROW = [("distance", "f4"), ("object", "i4"), ("triangle", "i4"), ("normal", "f4", (3,))]
 
 
 @dataclass(frozen=True)
@@ -53,11 +57,10 @@ class RayQuery:
 
     def __init__(self, scene: Any, *, time: float = 0.0, adapter: str | None = None, **settings: Any) -> None:
         name, files = as_source(scene)
-        if "bare" in _known() and not name.endswith((".toml", ".scene", ".nff")):
+        if not name.endswith((".toml", ".scene", ".nff")):
             settings.setdefault("bare", True)
         words = arguments("inspect", name, settings, "RayQuery")
-        prepare()
-        self._native = _native.RayQuery(words, files, float(time), adapter)
+        self._native = call(_native.RayQuery, words, files, float(time), adapter)
         self.names: list[str] = self._native.names()
 
     def closest(self, origins: Any, directions: Any, t_max: Any = None, *, coherent: bool = False) -> Hits:
@@ -76,14 +79,8 @@ class RayQuery:
         import numpy as np
 
         rows = _rows(origins, directions, t_max)
-        found = self._call(self._native.closest, rows, coherent)
-        distances, objects, triangles, normals = found
-        return Hits(
-            np.frombuffer(distances, np.float32),
-            np.frombuffer(objects, np.int32),
-            np.frombuffer(triangles, np.int32),
-            np.frombuffer(normals, np.float32).reshape(-1, 3),
-        )
+        found = np.frombuffer(self._call(self._native.closest, rows, coherent), _ROW)
+        return Hits(found["distance"], found["object"], found["triangle"], found["normal"])
 
     def occluded(self, origins: Any, directions: Any, t_max: Any = None, *, coherent: bool = False) -> Any:
         """Whether something is in the way of each ray: (N,), bool. Arguments and errors as for ``closest``."""
@@ -100,12 +97,6 @@ class RayQuery:
             if isinstance(error, SceneError):
                 raise
             raise SceneError(str(error)) from None
-
-
-def _known() -> dict[str, Any]:
-    from ._session import keywords
-
-    return keywords("inspect")
 
 
 def _rows(origins: Any, directions: Any, t_max: Any) -> tuple[bytes, bytes, bytes | None]:

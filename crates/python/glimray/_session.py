@@ -21,11 +21,29 @@ Progress = bool | Callable[[float], Any] | None
 atexit.register(_native.close)
 
 
+# The width of lavapipe's vectors. Other drivers of Mesa in this process must not read ours: wide ones crash when they draw.
+_WIDTH = "LP_NATIVE_VECTOR_WIDTH"
+
+
 @functools.cache
-def prepare() -> None:
-    """Sets what Mesa's lavapipe reads when it is loaded, before the first device is opened."""
-    for name, value in _native.driver_environment():
-        os.environ[name] = os.fsdecode(value)
+def _set_environment() -> frozenset[str]:
+    """Sets what Mesa's lavapipe reads when it is loaded, and returns the names of what was missing."""
+    found, said = _native.driver_environment()
+    _warn(said)
+    missing = {name: os.fsdecode(value) for name, value in found}
+    os.environ.update(missing)
+    return frozenset(missing)
+
+
+def call(function: Callable[..., Any], *arguments: Any) -> Any:
+    """Calls a function of the native part that may open a device."""
+    missing = _set_environment()
+    try:
+        return function(*arguments)
+    finally:
+        # Lavapipe reads it once.
+        if _WIDTH in missing and _native.is_open():
+            os.environ.pop(_WIDTH, None)
 
 
 @functools.cache
@@ -114,14 +132,16 @@ def run(
     return said
 
 
-def native(function: Callable[..., Any], *call: Any) -> Any:
+def native(function: Callable[..., Any], *arguments: Any) -> Any:
     """Calls the native part; the last item of the result, or the result, has what was said."""
-    prepare()
-    result = function(*call)
-    said = result[-1] if isinstance(result, tuple) else result
+    result = call(function, *arguments)
+    _warn(result[-1] if isinstance(result, tuple) else result)
+    return result
+
+
+def _warn(said: _native.Ran) -> None:
     for text in said.warnings:
         warnings.warn(in_keywords(text), GlimrayWarning, stacklevel=_caller())
-    return result
 
 
 def _caller() -> int:

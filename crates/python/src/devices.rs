@@ -49,6 +49,12 @@ pub fn keep(choice: &AdapterChoice, gpu: &Gpu) {
     }
 }
 
+/// Whether a device is open.
+#[pyfunction]
+pub fn is_open() -> bool {
+    !devices().open.is_empty()
+}
+
 /// Closes all devices: a driver must not be at work when the process ends. After a fork there is nothing to close.
 #[pyfunction]
 pub fn close() {

@@ -18,7 +18,7 @@ mod _native {
         version,
     };
     #[pymodule_export]
-    use crate::devices::close;
+    use crate::devices::{close, is_open};
     #[pymodule_export]
     use crate::picture::{Picture, compare, render};
     #[pymodule_export]
@@ -32,6 +32,7 @@ use glimray_scene::image::Image;
 use host::Session;
 use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// Files in memory by name.
@@ -64,10 +65,10 @@ fn keywords(command: &str) -> PyResult<String> {
     found.map_err(|error| errors::internal(&error))
 }
 
-/// Variables of the environment that drivers need and that are missing.
+/// Variables of the environment that drivers need and that are missing, and what was said.
 #[pyfunction]
-fn driver_environment() -> Vec<(&'static str, std::ffi::OsString)> {
-    embedded::driver_environment()
+fn driver_environment(py: Python) -> PyResult<(Vec<(&'static str, OsString)>, Ran)> {
+    Session::default().run(py, |host| Ok(embedded::driver_environment(host)))
 }
 
 /// Runs a command.
@@ -95,7 +96,7 @@ fn convert<'py>(
 }
 
 /// The command line of Python's words.
-fn words(arguments: Vec<PathBuf>) -> Vec<std::ffi::OsString> {
+fn words(arguments: Vec<PathBuf>) -> Vec<OsString> {
     arguments.into_iter().map(Into::into).collect()
 }
 

@@ -8,13 +8,17 @@ use glimray_cli::embedded;
 use glimray_render::gpu::AdapterChoice;
 use glimray_render::pack::{self, PackedScene};
 use glimray_render::{Coherence, ExecutionPolicy, QueryHit, QueryRay, RayBatch, RenderError};
-use glimray_scene::{Frame, ObjectRef, Scene};
+use glimray_scene::{Frame, ObjectRef, Scene, threads};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::collections::HashMap;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, OnceLock};
+
+/// A number that has not been looked up.
+const UNKNOWN: u32 = u32::MAX;
 
 /// Rays through a scene.
 #[pyclass(frozen)]
@@ -25,6 +29,8 @@ pub struct RayQuery {
     frame: Frame,
     /// For each mesh its triangles by their corners, in ascending order.
     triangles: OnceLock<Vec<HashMap<[u32; 3], u32>>>,
+    /// The number of each packed triangle in its mesh; [`UNKNOWN`] until it is first hit.
+    numbers: Vec<AtomicU32>,
 }
 
 #[pymethods]
@@ -44,7 +50,7 @@ impl RayQuery {
         made.map_err(|failure| failure.raised(py))
     }
 
-    /// Closest hits: distances, numbers of objects, numbers of triangles, normals, each as bytes; −1 where there is none.
+    /// Closest hits: a [`Row`] for each ray.
     fn closest<'py>(
         &self,
         py: Python<'py>,
@@ -52,19 +58,19 @@ impl RayQuery {
         directions: &[u8],
         t_max: Option<&[u8]>,
         is_coherent: bool,
-    ) -> PyResult<[Bound<'py, PyBytes>; 4]> {
+    ) -> PyResult<Bound<'py, PyBytes>> {
         let rays = rays(origins, directions, t_max)?;
         let found = py.detach(|| {
             let batch = self.batch(&rays, is_coherent)?;
-            Ok(self.found(&rays, &self.query.closest_hits_of(&batch)?))
+            let hits = self.query.closest_hits_of(&batch)?;
+            let places = self.places();
+            Ok(threads::collect(hits.len(), |index| {
+                let hit = hits[index];
+                hit.map_or(Row::MISS, |hit| self.row(&places, &rays[index], &hit))
+            }))
         });
-        let found = found.map_err(|error| raised(py, error))?;
-        Ok([
-            PyBytes::new(py, bytemuck::cast_slice(&found.distances)),
-            PyBytes::new(py, bytemuck::cast_slice(&found.objects)),
-            PyBytes::new(py, bytemuck::cast_slice(&found.triangles)),
-            PyBytes::new(py, bytemuck::cast_slice(&found.normals)),
-        ])
+        let found: Vec<Row> = found.map_err(|error| raised(py, error))?;
+        Ok(PyBytes::new(py, bytemuck::cast_slice(&found)))
     }
 
     /// Whether something is in the way of each ray: a byte each.
@@ -104,12 +110,27 @@ fn raised(py: Python, error: RenderError) -> PyErr {
     Failure::App(error.into()).raised(py)
 }
 
-/// What rays hit, ray by ray.
-struct Found {
-    distances: Vec<f32>,
-    objects: Vec<i32>,
-    triangles: Vec<i32>,
-    normals: Vec<[f32; 3]>,
+/// What a ray hits.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct Row {
+    /// Infinite if it hits nothing.
+    distance: f32,
+    /// −1 if it hits nothing.
+    object: i32,
+    /// −1 if it hits no triangle.
+    triangle: i32,
+    /// Unit vector, or zero.
+    normal: [f32; 3],
+}
+
+impl Row {
+    const MISS: Self = Self {
+        distance: f32::INFINITY,
+        object: -1,
+        triangle: -1,
+        normal: [0.0; 3],
+    };
 }
 
 impl RayQuery {
@@ -131,6 +152,9 @@ impl RayQuery {
         let query = glimray_render::RayQuery::new(gpu, packed.clone(), &view, policy);
         Ok(Self {
             query: query.map_err(|error| Failure::App(error.into()))?,
+            numbers: (0..packed.triangles.len())
+                .map(|_| AtomicU32::new(UNKNOWN))
+                .collect(),
             packed,
             scene,
             frame,
@@ -145,46 +169,60 @@ impl RayQuery {
         }))
     }
 
-    fn found(&self, rays: &[QueryRay], hits: &[Option<QueryHit>]) -> Found {
-        let mut found = Found {
-            distances: vec![f32::INFINITY; hits.len()],
-            objects: vec![-1; hits.len()],
-            triangles: vec![-1; hits.len()],
-            normals: vec![[0.0; 3]; hits.len()],
+    /// From each instance to the world.
+    fn places(&self) -> Vec<DAffine3> {
+        let instances = self.scene.instances.iter();
+        instances
+            .map(|instance| self.world_from(self.scene.node_of(instance)) * instance.placement)
+            .collect()
+    }
+
+    fn row(&self, places: &[DAffine3], ray: &QueryRay, hit: &QueryHit) -> Row {
+        let found = match self.query.object_of(hit) {
+            Some(ObjectRef::Instance(index)) => self.on_triangle(index, places[index], hit),
+            Some(ObjectRef::Shape(index)) => {
+                let shape = &self.scene.shapes[index];
+                let geometry = match shape.node {
+                    None => shape.geometry,
+                    node => shape.geometry.placed(self.world_from(node)),
+                };
+                let point = ray.origin + f64::from(hit.t) * ray.direction.as_dvec3();
+                let index = self.scene.instances.len() + index;
+                Some((index, -1, geometry.normal(point)))
+            }
+            Some(ObjectRef::Light(_)) | None => None,
         };
-        let places = self.scene.instances.iter().map(|instance| {
-            let node = self.scene.node_of(instance);
-            self.world_from(node) * instance.placement
-        });
-        let places: Vec<_> = places.collect();
-        for (row, (ray, hit)) in rays.iter().zip(hits).enumerate() {
-            let Some(hit) = hit else { continue };
-            found.distances[row] = hit.t;
-            let (object, normal) = match self.query.object_of(hit) {
-                Some(ObjectRef::Instance(index)) => {
-                    let corners = self.packed.corners_at(hit.primitive, hit.instance);
-                    let Some(corners) = corners else { continue };
-                    let mesh = self.scene.instances[index].mesh;
-                    let triangle = self.triangles()[mesh].get(&sorted(corners)).copied();
-                    found.triangles[row] = triangle.map_or(-1, |triangle| triangle as i32);
-                    (index, self.triangle_normal(mesh, corners, places[index]))
-                }
-                Some(ObjectRef::Shape(index)) => {
-                    let shape = &self.scene.shapes[index];
-                    let geometry = match shape.node {
-                        None => shape.geometry,
-                        node => shape.geometry.placed(self.world_from(node)),
-                    };
-                    let point = ray.origin + f64::from(hit.t) * ray.direction.as_dvec3();
-                    let index = self.scene.instances.len() + index;
-                    (index, geometry.normal(point))
-                }
-                Some(ObjectRef::Light(_)) | None => continue,
-            };
-            found.objects[row] = object as i32;
-            found.normals[row] = normal.as_vec3().to_array();
+        let Some((object, triangle, normal)) = found else {
+            return Row::MISS;
+        };
+        Row {
+            distance: hit.t,
+            object: object as i32,
+            triangle,
+            normal: normal.as_vec3().to_array(),
         }
-        found
+    }
+
+    /// The numbers of an instance and of its triangle that is hit, and the triangle's normal.
+    fn on_triangle(
+        &self,
+        index: usize,
+        world_from_mesh: DAffine3,
+        hit: &QueryHit,
+    ) -> Option<(usize, i32, DVec3)> {
+        let corners = self.packed.corners_at(hit.primitive, hit.instance)?;
+        let mesh = self.scene.instances[index].mesh;
+        let kept = &self.numbers[hit.primitive as usize];
+        let number = match kept.load(Ordering::Relaxed) {
+            UNKNOWN => {
+                let number = *self.triangles()[mesh].get(&sorted(corners))?;
+                kept.store(number, Ordering::Relaxed);
+                number
+            }
+            number => number,
+        };
+        let normal = self.triangle_normal(mesh, corners, world_from_mesh);
+        Some((index, number as i32, normal))
     }
 
     fn world_from(&self, node: Option<usize>) -> DAffine3 {
