@@ -133,12 +133,12 @@ fn encode<'py>(
     Ok(PyBytes::new(py, &bytes))
 }
 
-/// Width, height, pixels of four floats, whether they are radiance, and whether there is opacity, of a picture file.
+/// The size of a picture file, pixels of four floats, whether they are radiance, and whether there is opacity.
+type ReadPicture<'py> = ((u32, u32), Bound<'py, PyBytes>, bool, bool);
+
+/// Reads a picture file.
 #[pyfunction]
-fn read_picture<'py>(
-    py: Python<'py>,
-    path: PathBuf,
-) -> PyResult<((u32, u32), Bound<'py, PyBytes>, bool, bool)> {
+fn read_picture<'py>(py: Python<'py>, path: PathBuf) -> PyResult<ReadPicture<'py>> {
     let read = py.detach(|| glimray_app::picture_file::read(&path));
     let read = read.map_err(|error| Failure::App(error).raised(py))?;
     let Image { width, height, .. } = read.image;

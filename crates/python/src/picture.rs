@@ -62,7 +62,8 @@ impl Picture {
     /// Writes a file.
     fn save(&self, py: Python, path: PathBuf, quality: u8, clobber: bool) -> PyResult<()> {
         let save = |host| self.0.save(host, &path, quality, clobber);
-        Ok(Session::default().run(py, save)?.0)
+        Session::default().run(py, save)?;
+        Ok(())
     }
 
     /// The channels of a layer: their names, and the floats of each.
