@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import os
+import sys
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -73,7 +74,7 @@ class Picture:
         return {
             "version": 3,
             "shape": (self.height, self.width, 4),
-            "typestr": "<f4" if __import__("sys").byteorder == "little" else ">f4",
+            "typestr": "<f4" if sys.byteorder == "little" else ">f4",
             "data": self._linear,
         }
 

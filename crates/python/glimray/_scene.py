@@ -107,7 +107,8 @@ class Scene:
 
     def add_material(self, name: str, **table: Any) -> dict[str, Any]:
         """Adds or replaces a material with the keys of the table ``material``, such as ``pbr`` and ``emission``."""
-        return self.document.setdefault("materials", {}).setdefault(name, table)
+        self.document.setdefault("materials", {})[name] = table
+        return table
 
     def add_texture(self, name: str, picture: Any = None, **table: Any) -> dict[str, Any]:
         """Adds a texture with the keys of the table ``texture``.
@@ -119,7 +120,8 @@ class Scene:
         """
         if picture is not None:
             table["picture"] = self._add_picture(name, picture)
-        return self.document.setdefault("textures", {}).setdefault(name, table)
+        self.document.setdefault("textures", {})[name] = table
+        return table
 
     def add_light(self, **table: Any) -> dict[str, Any]:
         """Adds a light with the keys of the table ``light``, such as ``point`` or ``rectangle``."""
@@ -147,7 +149,7 @@ class Scene:
         """The contents of the scene as ``glimray inspect --json`` tells them."""
         return inspect(self, **settings)
 
-    def source(self) -> Source:
+    def _source(self) -> Source:
         """The name of the native file and all files."""
         return "scene.toml", {**self.files, "scene.toml": self.to_toml().encode()}
 
@@ -211,7 +213,7 @@ def as_source(scene: Any) -> Source:
         name = f"scene.{_scene_ending(data)}"
         return name, {name: data}
     if isinstance(scene, Scene):
-        return scene.source()
+        return scene._source()
     if type(scene).__module__.split(".")[0] == "trimesh" and _is_textured(scene):
         return "mesh.glb", {"mesh.glb": scene.export(file_type="glb")}
     return "mesh.ply", {"mesh.ply": Mesh.of(scene).ply()}
