@@ -136,9 +136,17 @@ fn load_seen(
     seen: &mut Vec<PathBuf>,
     report: &dyn Fn(Step),
 ) -> Result<Scene, ImportError> {
-    let format = SceneFormat::required(path)?;
-    let bytes = step::read(path, report, || folder::read(path, format.max_bytes));
-    let bytes = bytes.map_err(|error| format.unreadable(path, &error))?;
+    let named = match options.by_content {
+        true => SceneFormat::of(path),
+        false => Some(SceneFormat::required(path)?),
+    };
+    let most = named.map_or(MAX_GEOMETRY_BYTES, |format| format.max_bytes);
+    let bytes = step::read(path, report, || folder::read(path, most));
+    let bytes = bytes.map_err(|error| match named {
+        Some(format) => format.unreadable(path, &error),
+        None => paths::unreadable(path, &error, most),
+    })?;
+    let format = named.map_or_else(|| SceneFormat::of_content(path, &bytes), Ok)?;
     let folder = Folder::of(path)?.allowing(&options.allow_dirs)?;
     let files = step::Reporting {
         resolver: &folder,

@@ -241,6 +241,7 @@ impl SceneFlags {
                 strength: self.environment_strength,
                 rotation_deg: self.environment_rotation,
             },
+            by_content: false,
             instead_of_empty: None,
         }
     }

@@ -203,6 +203,30 @@ impl SceneFormat {
         Self::of(path).ok_or_else(|| unknown(path))
     }
 
+    /// The format of a model by the first of its bytes.
+    ///
+    /// # Errors
+    /// They are those of no model.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(super) fn of_content(path: &Path, bytes: &[u8]) -> Result<&'static Self, ImportError> {
+        /// Lines of an OBJ file among which there is a vertex: others are names, comments and libraries.
+        const MOST_LINES: usize = 1000;
+        let start = bytes.trim_ascii_start();
+        let mut lines = start.split(|byte| *byte == b'\n').take(MOST_LINES);
+        let ending = match start {
+            _ if start.starts_with(b"glTF") => "glb",
+            _ if start.starts_with(b"PK\x03\x04") => "zip",
+            _ if start.starts_with(b"ply") => "ply",
+            _ if start.starts_with(b"{") => "gltf",
+            _ if stl::is_stl(bytes) => "stl",
+            _ if lines.any(|line| line.starts_with(b"v ")) => "obj",
+            _ => return Err(unknown(path)),
+        };
+        (SCENE_FORMATS.iter())
+            .find(|format| format.endings.contains(&ending))
+            .ok_or_else(|| unknown(path))
+    }
+
     /// Whether its files have scenes of other formats in them.
     pub(super) fn is_archive(&self) -> bool {
         self.takes == Takes::Everything

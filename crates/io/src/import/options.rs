@@ -39,6 +39,8 @@ pub struct Options {
     pub staging: Staging,
     /// Replaces or changes the background.
     pub environment: Environment,
+    /// Whether a model whose name has no known extension is told by its contents, for [`super::load_with`].
+    pub by_content: bool,
     /// The text that an empty native file stands for; `None` refuses it.
     pub instead_of_empty: Option<&'static str>,
 }

@@ -157,6 +157,12 @@ pub(super) fn read_scene(
     Ok(model.into_scene(Vec::new(), Axis::Z, options))
 }
 
+/// Whether `bytes` are those of an STL file, whatever its name.
+#[cfg(not(target_arch = "wasm32"))]
+pub(super) fn is_stl(bytes: &[u8]) -> bool {
+    binary::header(bytes).is_some() || text::is_text(bytes)
+}
+
 /// The model in `bytes`, in the file's own axes.
 pub(super) fn read_model(path: &Path, bytes: Vec<u8>) -> Result<Model, ImportError> {
     let budget = Budget::of(bytes.len());
