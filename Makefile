@@ -100,7 +100,7 @@ peers: build driver
 # The commands are those that README.md and the manual's gallery show with each picture; the pictures of the window
 # are taken of a real one.
 gallery: build driver display
-	@grep -oh 'glimray [a-z]* [^`]*-o assets/gallery/[^` ]*' README.md docs/src/guide/gallery.md | while read -r _ arguments; do \
+	@grep -oh 'glimray [a-z]* [^`]*-o assets/gallery/[^` ]*' README.md docs/src/guide/gallery.md docs/src/guide/command-line.md | while read -r _ arguments; do \
 		echo "glimray $$arguments"; \
 		$(GLIMRAY) $$arguments --quiet || exit; \
 	done

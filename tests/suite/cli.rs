@@ -24,6 +24,7 @@ mod refusals;
 mod render;
 mod report;
 mod schema;
+mod sheet;
 #[cfg(unix)]
 mod signals;
 mod streams;

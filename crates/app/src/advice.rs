@@ -10,6 +10,10 @@ use std::path::PathBuf;
 pub const UNLIT: &str = "the scene has no light, so its surfaces are black. Add a light, an ambient \
                          light, or a material with emission.";
 
+/// The error for a scene that a camera is to be placed for, if it has nothing of limited size.
+pub const UNBOUNDED: &str =
+    "cannot frame the scene: it has no bounded geometry. Add an object other than a plane.";
+
 /// The message of a device error, with its remedy.
 pub fn gpu(error: &GpuError) -> String {
     match error {

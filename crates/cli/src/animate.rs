@@ -195,10 +195,11 @@ impl<'a> Sequence<'a> {
             Outcome {
                 path: &self.target.path,
                 size,
-                pictures: frames.rendered,
+                pixels: frames.rendered as u64 * u64::from(size.0) * u64::from(size.1),
                 adapter: frames.adapter.as_ref(),
                 stats: &frames.stats,
                 animation: Some(animation),
+                sheet: None,
             },
             draft,
         )

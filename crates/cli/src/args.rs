@@ -7,6 +7,7 @@ mod farm;
 mod flags;
 mod motion;
 mod schema;
+mod sheet;
 mod values;
 
 pub use bench::BenchArgs;
@@ -25,6 +26,7 @@ pub use motion::{
     MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,
 };
 pub use schema::{SchemaArgs, Subject};
+pub use sheet::{SheetArgs, VIEWS, View};
 pub use values::MAX_FRAME;
 
 use clap::{Args, Parser, Subcommand};
@@ -91,6 +93,16 @@ pub enum Command {
             The camera keeps the smallest distance at which all bounded geometry stays in frame for the \
             whole turn.")]
     Turntable(Box<TurntableArgs>),
+    /// Render named views of a model in one picture, with axes and a scale bar.
+    ///
+    /// The views along an axis are orthographic and of one scale. The lamps of a model without lights turn with the camera,
+    /// and there is no ground.
+    #[command(after_help = "Examples:\n  \
+            glimray sheet model.glb -o model.png\n  \
+            glimray sheet model.stl --views front,right,top --size 512 -o model.png\n\n\
+            The axes are those of --look-from: +y is up, and a model is seen from the front from +z. The title has the size of \
+            the model's bounding box in scene units. The report says where each view is, and its scale.")]
+    Sheet(Box<SheetArgs>),
     /// Open a window whose picture refines progressively while you navigate and edit.
     #[cfg(feature = "viewer")]
     #[command(after_help = "Examples:\n  \

@@ -3,14 +3,14 @@
 
 use crate::args::{DeviceFlags, LayerFlags, LogFlags, PictureFlags};
 use crate::destination;
-use crate::device;
+use crate::device::{self, Opening};
 use crate::idle_flags;
 use crate::layers::Finished;
 use crate::memory;
 use crate::report;
 use crate::report::{
     AnimationReport, AnyReport, Draft, ImageReport, Memory, Report, SceneReport, Seconds,
-    SettingsReport,
+    SettingsReport, SheetReport,
 };
 use glimray_app::advice::UNLIT;
 use glimray_app::console;
@@ -22,10 +22,16 @@ use glimray_app::overrides;
 use glimray_app::value_names::BSDF_MODELS;
 use glimray_io::output;
 use glimray_render::gpu::{AdapterChoice, AdapterReport, Gpu};
-use glimray_render::{ExecutionPolicy, Integrator, RenderSettings, Renderer, Stats, Tone};
+use glimray_render::pack::{PackedScene, PackedView};
+use glimray_render::{
+    self as render, ExecutionPolicy, Integrator, RenderSettings, Renderer, Stats, Tone,
+};
 use glimray_scene::bytes::size;
 use glimray_scene::{Backdrop, LightTransport, Scene};
+use std::panic::resume_unwind;
 use std::path::Path;
+use std::sync::Arc;
+use std::thread;
 use std::time::Instant;
 
 /// A scene to render, with the options from the command line.
@@ -44,13 +50,15 @@ pub struct Outcome<'a> {
     pub path: &'a Path,
     /// Width and height of every picture.
     pub size: (u32, u32),
-    /// Number of pictures that were rendered.
-    pub pictures: usize,
+    /// Number of pixels that were rendered, in all pictures.
+    pub pixels: u64,
     /// `None` if no adapter was needed.
     pub adapter: Option<&'a AdapterReport>,
     pub stats: &'a Stats,
     /// `Some` for an animation.
     pub animation: Option<AnimationReport>,
+    /// `Some` for a sheet.
+    pub sheet: Option<SheetReport>,
 }
 
 impl Job<'_> {
@@ -208,6 +216,39 @@ impl Job<'_> {
         memory::check_scene(&self.scene, &draft.scene_path, size)
     }
 
+    /// Packs the scene while the adapter is being opened, for `what`, the first part of the message about it. The first
+    /// picture is exposed from `shutter.0` to `shutter.1`, in seconds.
+    pub fn pack(
+        &self,
+        opening: Opening,
+        shutter: (f64, f64),
+        what: &str,
+        (settings, policy): (&RenderSettings, &ExecutionPolicy),
+        draft: &mut Draft,
+    ) -> Result<(Gpu, (Arc<PackedScene>, PackedView)), AppError> {
+        let started = Instant::now();
+        let (gpu, packed) = thread::scope(|scope| {
+            let packing = scope.spawn(|| {
+                let packed = device::packed(&self.scene, shutter)?;
+                let module = match memory::is_limited() {
+                    true => None,
+                    false => render::early_module(&packed.0, &packed.1, settings, policy),
+                };
+                Ok::<_, AppError>((packed, module))
+            });
+            let gpu = opening.wait()?;
+            draft.adapter = Some(gpu.adapter().into());
+            self.announce(what, settings, gpu.adapter());
+            let (packed, module) = packing
+                .join()
+                .unwrap_or_else(|panic| resume_unwind(panic))?;
+            Ok::<_, AppError>((gpu.with_early_module(module), packed))
+        })?;
+        draft.seconds.bvh = packed.0.build_seconds;
+        draft.seconds.gpu = (started.elapsed().as_secs_f64() - draft.seconds.bvh).max(0.0);
+        Ok((gpu, packed))
+    }
+
     /// Opens the adapter, for pictures of `size` pixels.
     pub fn open_gpu(&self, size: (u32, u32), draft: &mut Draft) -> Result<Gpu, AppError> {
         self.check_memory(size, draft)?;
@@ -278,8 +319,6 @@ impl Job<'_> {
         draft: &Draft,
     ) -> Result<(), AppError> {
         let stats = outcome.stats;
-        let (width, height) = outcome.size;
-        let samples = outcome.pictures as f64 * f64::from(width) * f64::from(height);
         let of_paths = settings.integrator == Integrator::Path;
         let report = Report {
             glimray: Report::VERSION,
@@ -287,7 +326,7 @@ impl Job<'_> {
             scene: SceneReport::new(&draft.scene_path, &self.scene),
             image: ImageReport {
                 // Avoids 0/0 when nothing was rendered.
-                mean_samples: Some(stats.samples as f64 / samples.max(1.0)),
+                mean_samples: Some(stats.samples as f64 / outcome.pixels.max(1) as f64),
                 ..self.image(outcome.path, settings, outcome.size)
             },
             adapter: outcome.adapter.map(Into::into),
@@ -309,6 +348,7 @@ impl Job<'_> {
             },
             resumed: draft.resumed,
             animation: outcome.animation,
+            sheet: outcome.sheet,
             error: (),
         };
         details(self.console(), settings, &report);

@@ -33,6 +33,7 @@ mod render;
 mod report;
 mod scene_file;
 mod schema;
+mod sheet;
 mod snippet;
 mod turntable;
 #[cfg(feature = "viewer")]
@@ -110,6 +111,7 @@ fn dispatch(
         Command::Render(arguments) => render::run(&arguments, started),
         Command::Animate(arguments) => animate::run(&arguments, started),
         Command::Turntable(arguments) => turntable::run(&arguments, started),
+        Command::Sheet(arguments) => sheet::run(&arguments, started),
         #[cfg(feature = "viewer")]
         Command::View(arguments) => view::run(&arguments, window),
         Command::Merge(arguments) => merge::run(&arguments),

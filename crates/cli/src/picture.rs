@@ -7,18 +7,13 @@ use crate::device::{self, Opening};
 use crate::interrupt::Interrupt;
 use crate::job::{Job, Outcome};
 use crate::layers::Finished;
-use crate::memory;
 use crate::progress::Progress;
 use crate::report::Draft;
 use glimray_app::error::AppError;
 use glimray_app::legend;
 use glimray_app::overrides::picture_size;
-use glimray_render::{
-    self as render, FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK, Tone,
-};
+use glimray_render::{FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK, Tone};
 use std::ops::Range;
-use std::panic::resume_unwind;
-use std::thread;
 use std::time::Instant;
 
 /// Renders the picture exposed from `shutter.0` to `shutter.1`, in seconds, on the adapter that is being opened, and writes
@@ -97,10 +92,11 @@ pub fn run(
         Outcome {
             path,
             size,
-            pictures: 1,
+            pixels: u64::from(size.0) * u64::from(size.1),
             adapter: Some(renderer.adapter()),
             stats,
             animation: None,
+            sheet: None,
         },
         draft,
     )
@@ -121,28 +117,9 @@ pub fn prepared(
 ) -> Result<Renderer, AppError> {
     let size = picture_size(settings)?;
     job.check_memory(size, draft)?;
-    let started = Instant::now();
-    let (gpu, packed) = thread::scope(|scope| {
-        let packing = scope.spawn(|| {
-            let packed = device::packed(&job.scene, shutter)?;
-            let policy = job.policy();
-            let module = match memory::is_limited() {
-                true => None,
-                false => render::early_module(&packed.0, &packed.1, settings, &policy),
-            };
-            Ok::<_, AppError>((packed, module))
-        });
-        let gpu = opening.wait()?;
-        draft.adapter = Some(gpu.adapter().into());
-        job.announce("", settings, gpu.adapter());
-        let (packed, module) = packing
-            .join()
-            .unwrap_or_else(|panic| resume_unwind(panic))?;
-        Ok::<_, AppError>((gpu.with_early_module(module), packed))
-    })?;
-    draft.seconds.bvh = packed.0.build_seconds;
-    draft.seconds.gpu = (started.elapsed().as_secs_f64() - draft.seconds.bvh).max(0.0);
-    let renderer = device::prepared(gpu, packed, settings.clone(), job.policy(), tone)?;
+    let policy = job.policy();
+    let (gpu, packed) = job.pack(opening, shutter, "", (settings, &policy), draft)?;
+    let renderer = device::prepared(gpu, packed, settings.clone(), policy, tone)?;
     draft.fetch = Some(device::fetch_report(&renderer)?);
     Ok(renderer)
 }

@@ -66,6 +66,9 @@ pub struct Report {
     /// Present for `animate` and `turntable`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub animation: Option<AnimationReport>,
+    /// Present for `sheet`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sheet: Option<SheetReport>,
     /// Null; the report of a failed run has the error here.
     pub error: (),
 }
@@ -105,6 +108,28 @@ pub struct AnimationReport {
     /// Rendered frames per second of compiling, uploading, rendering and writing; null if no frame was
     /// rendered.
     pub frames_per_second: Option<f64>,
+}
+
+/// The views of a sheet.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SheetReport {
+    pub views: Vec<SheetView>,
+    /// Width and height of each in pixels.
+    pub side: u32,
+    /// Length of the scale bar in scene units.
+    pub scale_bar: f64,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SheetView {
+    /// As `--views` takes it.
+    pub name: &'static str,
+    /// Column of its upper left pixel in the sheet.
+    pub x: u32,
+    /// Row of its upper left pixel in the sheet.
+    pub y: u32,
+    /// The scale; null for a view in perspective.
+    pub units_per_pixel: Option<f64>,
 }
 
 /// Existing frames that could not be reused.

@@ -6,6 +6,7 @@ use crate::args::{LayerFlags, MotionFlags, Range, RangeFlags, TurnFlags, Turntab
 use crate::idle_flags;
 use crate::job::Job;
 use crate::report::Draft;
+use glimray_app::advice::UNBOUNDED;
 use glimray_app::clock::Clock;
 use glimray_app::error::AppError;
 use glimray_app::overrides::SectionChoice;
@@ -53,10 +54,10 @@ fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Resul
         .unwrap_or(scene.output.size);
     // A whole number of frames, so that the step from the last to the first equals all other steps.
     let mut scene = turned(scene, turn, frames / turn.fps, size)?;
-    if let Some(background) = turn.background {
+    if let Some(background) = turn.shown.background {
         scene.background = Background::Color(background);
     }
-    if let Some(SectionChoice(section)) = turn.section {
+    if let Some(SectionChoice(section)) = turn.shown.section {
         scene.section = section;
     }
     let flags = MotionFlags {
@@ -112,8 +113,5 @@ fn turned(
     if scene::turntable(&mut scene, &options) {
         return Ok(scene);
     }
-    Err(AppError::Refused(
-        "cannot frame the scene: it has no bounded geometry. Add an object other than a plane."
-            .into(),
-    ))
+    Err(AppError::Refused(UNBOUNDED.into()))
 }

@@ -63,6 +63,18 @@ fn help_documents_every_promised_flag_and_has_an_example() {
             "turntable",
             [output, turn, size, motion, reading, device, log].join(" "),
         ),
+        (
+            "sheet",
+            [
+                output,
+                "--size --views front back left right top bottom front-right back-left",
+                "--samples --integrator --tone --environment --background --section --up",
+                reading,
+                device,
+                log,
+            ]
+            .join(" "),
+        ),
         ("convert", ["--output --no-clobber", reading].join(" ")),
         (
             "merge",

@@ -74,7 +74,9 @@ fn outputs(workspace: &Workspace, subject: &str) -> Vec<(String, Value)> {
                 "animate moving.toml --frames 0..1 -o f_%d.png --size 8x8",
                 0,
             ),
+            ("sheet a.scene -o a.png --size 64 --views top,back-left", 0),
             ("render gone.scene -o a.png", 3),
+            ("sheet gone.scene -o a.png", 3),
             ("animate gone.toml -o a.y4m", 3),
             (
                 "render a.scene -o a.png --memory-limit 1 --size 2048x2048",

@@ -4,12 +4,12 @@ mod log;
 mod picture;
 
 pub use log::{LogFlags, ProgressMode};
-pub use picture::{PictureFlags, SettingFlags, SizeFlags};
+pub use picture::{PictureFlags, SettingFlags, SizeFlags, ViewSettingFlags};
 
 use super::checkpoint::CheckpointFlags;
 use super::values::{self, BACKENDS, FORMATS, GROUNDS, Up};
 use clap::Args;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use glimray_app::layers::{LAYERS, PictureLayer};
 use glimray_app::overrides::{
     BackgroundChoice, CameraOverrides, Exposure, SectionChoice, ToneOverrides,
@@ -71,7 +71,7 @@ pub struct LayerFlags {
 }
 
 /// How linear radiance becomes display values.
-#[derive(Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Picture")]
 pub struct DevelopFlags {
     /// Exposure: multiply radiance by 2^EV, -64 to 64 [default: the scene's, else 0; 0 for .exr and .hdr]
@@ -131,6 +131,17 @@ pub struct CameraFlags {
     /// Cut away what lies beyond a plane: points p with X·p.x + Y·p.y + Z·p.z > OFFSET, or none
     ///
     /// Closed meshes and shapes are solid: the plane shows their inside as a flat face of their material.
+    #[arg(long, value_name = "X,Y,Z,OFFSET|none", allow_hyphen_values = true, value_parser = values::section)]
+    pub section: Option<SectionChoice>,
+}
+
+/// What is shown of a scene, and before what, for commands that place their cameras by themselves.
+#[derive(Debug, Default, Args)]
+pub struct ShownFlags {
+    /// Background colour: linear radiance, 0 or more per channel
+    #[arg(long, value_name = "R,G,B", allow_hyphen_values = true, value_parser = values::color)]
+    pub background: Option<Vec3>,
+    /// Cut away what lies beyond a plane: points p with X·p.x + Y·p.y + Z·p.z > OFFSET, or none
     #[arg(long, value_name = "X,Y,Z,OFFSET|none", allow_hyphen_values = true, value_parser = values::section)]
     pub section: Option<SectionChoice>,
 }

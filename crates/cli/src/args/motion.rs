@@ -1,9 +1,10 @@
 //! Flags for animation.
 
+use super::flags::ShownFlags;
 use super::values::{self, SEQUENCE_FORMATS};
 use clap::Args;
-use glam::{DVec3, Vec3};
-use glimray_app::overrides::{Moment, SectionChoice, TimingOverrides};
+use glam::DVec3;
+use glimray_app::overrides::{Moment, TimingOverrides};
 use glimray_io::output::Format;
 use glimray_io::output::video::VideoFormat;
 use glimray_scene::Shutter;
@@ -142,12 +143,8 @@ pub struct TurnFlags {
     /// Turn the model clockwise, seen from above
     #[arg(long)]
     pub clockwise: bool,
-    /// Background colour: linear radiance, 0 or more per channel
-    #[arg(long, value_name = "R,G,B", allow_hyphen_values = true, value_parser = values::color)]
-    pub background: Option<Vec3>,
-    /// Cut away what lies beyond a plane: points p with X·p.x + Y·p.y + Z·p.z > OFFSET, or none
-    #[arg(long, value_name = "X,Y,Z,OFFSET|none", allow_hyphen_values = true, value_parser = values::section)]
-    pub section: Option<SectionChoice>,
+    #[command(flatten)]
+    pub shown: ShownFlags,
     /// Shutter interval for motion blur [default: the model's, else 0]
     ///
     /// A length in frames (0.5) or degrees (180deg) that starts at the frame's time, or open..close in

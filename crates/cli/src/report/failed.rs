@@ -31,6 +31,9 @@ pub struct FailedReport<'a> {
     /// Present for `animate` and `turntable`.
     #[serde(skip_serializing_if = "Option::is_none")]
     animation: Option<()>,
+    /// Present for `sheet`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sheet: Option<()>,
     error: Failure,
 }
 
@@ -138,6 +141,7 @@ impl<'a> FailedReport<'a> {
             },
             resumed: draft.resumed,
             animation: matches!(draft.command, "animate" | "turntable").then_some(()),
+            sheet: (draft.command == "sheet").then_some(()),
             error: Failure {
                 message: error.to_string(),
                 code: error.exit_code(),

@@ -7,20 +7,23 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 use glimray_app::settings::{PictureOverrides, SETTINGS, Setting};
 use glimray_app::value_forms::Control;
 
-/// The flags of the first settings of the table.
+/// The flags of the settings of the table from `FIRST` on, before `END`.
 #[derive(Debug, Default)]
-pub struct SettingFlags<const COUNT: usize> {
+pub struct SettingFlags<const FIRST: usize, const END: usize> {
     pub given: PictureOverrides,
 }
 
 /// Resolution and sample count.
-pub type SizeFlags = SettingFlags<2>;
+pub type SizeFlags = SettingFlags<0, 2>;
+
+/// All but the size, which is first, and the region, which is last.
+pub type ViewSettingFlags = SettingFlags<1, { SETTINGS.len() - 1 }>;
 
 /// How the picture is rendered and developed.
 #[derive(Debug, Default, Args)]
 pub struct PictureFlags {
     #[command(flatten)]
-    pub settings: SettingFlags<{ SETTINGS.len() }>,
+    pub settings: SettingFlags<0, { SETTINGS.len() }>,
     #[command(flatten)]
     pub develop: DevelopFlags,
 }
@@ -34,9 +37,9 @@ impl PictureFlags {
     }
 }
 
-impl<const COUNT: usize> Args for SettingFlags<COUNT> {
+impl<const FIRST: usize, const END: usize> Args for SettingFlags<FIRST, END> {
     fn augment_args(command: Command) -> Command {
-        let settings = SETTINGS[..COUNT].iter();
+        let settings = SETTINGS[FIRST..END].iter();
         command
             .next_help_heading("Picture")
             .args(settings.map(flag))
@@ -47,10 +50,10 @@ impl<const COUNT: usize> Args for SettingFlags<COUNT> {
     }
 }
 
-impl<const COUNT: usize> FromArgMatches for SettingFlags<COUNT> {
+impl<const FIRST: usize, const END: usize> FromArgMatches for SettingFlags<FIRST, END> {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
         let mut given = PictureOverrides::default();
-        for setting in &SETTINGS[..COUNT] {
+        for setting in &SETTINGS[FIRST..END] {
             let text = match (setting.control)() {
                 Control::Switch(_) => matches.get_flag(setting.name).then_some(""),
                 _ => (matches.get_one::<String>(setting.name)).map(String::as_str),
