@@ -29,3 +29,4 @@ mod sheet;
 mod signals;
 mod streams;
 mod terminal;
+mod thumbnail;

@@ -26,7 +26,7 @@ pub use motion::{
     MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,
 };
 pub use schema::{SchemaArgs, Subject};
-pub use sheet::{SheetArgs, VIEWS, View};
+pub use sheet::{SheetArgs, ThumbnailArgs, VIEWS, View};
 pub use values::MAX_FRAME;
 
 use clap::{Args, Parser, Subcommand};
@@ -103,6 +103,15 @@ pub enum Command {
             The axes are those of --look-from: +y is up, and a model is seen from the front from +z. The title has the size of \
             the model's bounding box in scene units. The report says where each view is, and its scale.")]
     Sheet(Box<SheetArgs>),
+    /// Render a small picture of a model or a scene, for file managers.
+    ///
+    /// A model is framed, and a scene is seen by its own camera. The backdrop is grey, because models may be white or black,
+    /// and file managers too.
+    #[command(after_help = "Examples:\n  \
+            glimray thumbnail model.glb --size 256 -o model.png\n  \
+            glimray thumbnail --size %s -o %o %i\n\n\
+            The second is the line of a file in ~/.local/share/thumbnailers. Nothing is printed but warnings and errors.")]
+    Thumbnail(ThumbnailArgs),
     /// Open a window whose picture refines progressively while you navigate and edit.
     #[cfg(feature = "viewer")]
     #[command(after_help = "Examples:\n  \

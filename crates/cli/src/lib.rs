@@ -35,6 +35,7 @@ mod scene_file;
 mod schema;
 mod sheet;
 mod snippet;
+mod thumbnail;
 mod turntable;
 #[cfg(feature = "viewer")]
 pub mod view;
@@ -112,6 +113,7 @@ fn dispatch(
         Command::Animate(arguments) => animate::run(&arguments, started),
         Command::Turntable(arguments) => turntable::run(&arguments, started),
         Command::Sheet(arguments) => sheet::run(&arguments, started),
+        Command::Thumbnail(arguments) => thumbnail::run(&arguments, started),
         #[cfg(feature = "viewer")]
         Command::View(arguments) => view::run(&arguments, window),
         Command::Merge(arguments) => merge::run(&arguments),

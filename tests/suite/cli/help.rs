@@ -75,6 +75,7 @@ fn help_documents_every_promised_flag_and_has_an_example() {
             ]
             .join(" "),
         ),
+        ("thumbnail", ["-o --output --size --up", device].join(" ")),
         ("convert", ["--output --no-clobber", reading].join(" ")),
         (
             "merge",

@@ -1,4 +1,4 @@
-//! Flags of `sheet`.
+//! Flags of `sheet` and `thumbnail`.
 
 use super::flags::{
     AxisFlags, DevelopFlags, DeviceFlags, LogFlags, OutputFlags, SceneFlags, ShownFlags,
@@ -76,3 +76,19 @@ pub static VIEWS: ValueNames<View> = ValueNames(&[
         View::BackLeft,
     ),
 ]);
+
+#[derive(Debug, Args)]
+pub struct ThumbnailArgs {
+    /// Model or scene file, in any format that `render` reads; a model may have any name
+    pub scene: PathBuf,
+    /// Output file, a PNG whatever its name; `-` is standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Longest side in pixels, 16 to 1024
+    #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "256", value_parser = clap::value_parser!(u32).range(16..=1024))]
+    pub size: u32,
+    #[command(flatten)]
+    pub axis: AxisFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+}
