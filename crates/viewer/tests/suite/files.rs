@@ -271,7 +271,7 @@ fn a_folder_that_cannot_be_watched_is_told_in_words() {
     let (folder, path) = crate::edit::file();
     let mut window = crate::edit::open(&path, "64x48");
     let gone = folder.path().join("gone").join("balls.toml");
-    let why = Watch::default().set_files(&[gone.clone()], SystemTime::now(), || {});
+    let why = Watch::default().set_files(std::slice::from_ref(&gone), SystemTime::now(), || {});
     assert_eq!(why, Err("the folder does not exist".to_owned()));
     // Saved files are watched from then on.
     files::saved(&mut window.session(), vec![gone]);

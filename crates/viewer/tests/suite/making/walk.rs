@@ -31,6 +31,9 @@ const REACH: f32 = 130.0;
 /// Whether something of a scene is of a kind.
 type Kind = fn(&Scene, Id) -> bool;
 
+/// Makes an edit.
+type Edit = fn(&mut Walk);
+
 struct Walk {
     window: Window,
     random: Random,
@@ -39,7 +42,7 @@ struct Walk {
 }
 
 /// What the walk does, and how many times.
-const EDITS: [(&str, usize, fn(&mut Walk)); 22] = [
+const EDITS: [(&str, usize, Edit); 22] = [
     ("add", 3, |walk| walk.add(0..ADDITIONS.len())),
     ("duplicate", 3, |walk| {
         walk.select(|_, _| true);
@@ -338,7 +341,7 @@ impl Walk {
     }
 
     /// What an edit needs that the scene lacks, and how to add it.
-    fn lacks(&self) -> Option<(&'static str, fn(&mut Self))> {
+    fn lacks(&self) -> Option<(&'static str, Edit)> {
         let scene = scene(&self.window);
         let lamps = 0..scene.lights.len();
         let lamps = lamps.map(|index| Id::Object(ObjectRef::Light(index)));
