@@ -321,8 +321,9 @@ fn flag(code: &str) -> Option<&str> {
 #[test]
 fn only_the_program_knows_flags_exit_codes_and_the_terminal() {
     let mut verdict = Verdict::on("sources without the program");
-    let of_program =
-        |path: &Path| ["app", "cli", "link", "main", "python", "viewer"].contains(&&*module_of(path));
+    let of_program = |path: &Path| {
+        ["app", "cli", "link", "main", "python", "viewer"].contains(&&*module_of(path))
+    };
     for (path, text) in rust_files() {
         if of_program(&path) {
             continue;
@@ -354,7 +355,9 @@ fn only_a_few_files_of_the_library_need_more_than_a_browser_has() {
         "tempfile",
     ];
     // A browser has the clock of these, and the files that ask first.
-    const PARTS: &[&str] = &["app", "cli", "link", "main", "python", "viewer", "output", "clock"];
+    const PARTS: &[&str] = &[
+        "app", "cli", "link", "main", "python", "viewer", "output", "clock",
+    ];
     const FILES: &[&str] = &[
         "crates/io/src/import/folder.rs",
         "crates/render/src/gpu/blocking.rs",
@@ -403,7 +406,15 @@ fn only_a_few_files_of_the_library_wait_for_the_device() {
         "crates/render/src/gpu/lanes.rs",
         "src/picture.rs",
     ];
-    const PROGRAM: &[&str] = &["app", "cli", "link", "main", "python", "shader-test", "viewer"];
+    const PROGRAM: &[&str] = &[
+        "app",
+        "cli",
+        "link",
+        "main",
+        "python",
+        "shader-test",
+        "viewer",
+    ];
     check_words("sources of the library", WORDS, PROGRAM, FILES);
 }
 

@@ -223,7 +223,8 @@ impl Picture {
             Outcome {
                 path: nowhere,
                 size,
-                pictures: 1,
+                pixels: u64::from(size.0) * u64::from(size.1),
+                sheet: None,
                 adapter: Some(renderer.adapter()),
                 stats,
                 animation: None,

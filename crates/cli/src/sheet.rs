@@ -79,7 +79,7 @@ fn render(
     };
 
     let interrupt = Interrupt::install()?;
-    job.warn_of_skipped();
+    job.warn_of_skipped()?;
     let settings = job.settings();
     job.check_format(&settings, destination.path(), false, true)?;
     let mut page = Page::new(side, &shots);

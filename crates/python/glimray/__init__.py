@@ -23,7 +23,7 @@ from ._errors import (
 )
 from ._mesh import Mesh
 from ._native import version as _version
-from ._picture import Comparison, Picture, Video, animate, compare, render, turntable
+from ._picture import Comparison, Picture, Sheet, Video, animate, compare, render, sheet, turntable
 from ._query import Hits, RayQuery
 from ._scene import Scene, inspect
 from ._session import keywords
@@ -43,6 +43,7 @@ __all__ = [
     "RayQuery",
     "Scene",
     "SceneError",
+    "Sheet",
     "TooBig",
     "UsageError",
     "Video",
@@ -51,5 +52,6 @@ __all__ = [
     "inspect",
     "keywords",
     "render",
+    "sheet",
     "turntable",
 ]

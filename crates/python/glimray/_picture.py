@@ -10,12 +10,15 @@ import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from . import _native
 from ._errors import SceneError, UsageError
 from ._scene import Source, as_pixels, as_source
 from ._session import Progress, arguments, keywords, native, run, shown
+
+
+F = TypeVar("F", bound="_File")
 
 
 class Picture:
@@ -174,13 +177,8 @@ class _without_arrays:
             os.unlink(self._file.name)
 
 
-class Video:
-    """A rendered animation. An MP4 or GIF shows itself in a notebook.
-
-    Attributes:
-        path: The file; ``None`` if there is none but in memory.
-        report: What ``--report`` writes.
-    """
+class _File:
+    """A file that was rendered, on the disk or in memory."""
 
     def __init__(self, path: Path | None, data: bytes | None, ending: str, report: str) -> None:
         self.path = path
@@ -202,6 +200,15 @@ class Video:
             OSError: The file cannot be written.
         """
         Path(path).write_bytes(self.data())
+
+
+class Video(_File):
+    """A rendered animation. An MP4 or GIF shows itself in a notebook.
+
+    Attributes:
+        path: The file; ``None`` if there is none but in memory.
+        report: What ``--report`` writes.
+    """
 
     def _repr_html_(self) -> str | None:
         if self._ending == ".gif":
@@ -226,7 +233,7 @@ def animate(
     Raises:
         As ``render``.
     """
-    return _video("animate", scene, output, progress, settings)
+    return _file(Video, "animate", scene, output, ".mp4", progress, settings)
 
 
 def turntable(
@@ -243,22 +250,59 @@ def turntable(
     Raises:
         As ``render``.
     """
-    return _video("turntable", scene, output, progress, settings)
+    return _file(Video, "turntable", scene, output, ".mp4", progress, settings)
 
 
-def _video(
-    command: str, scene: Any, output: str | os.PathLike[str] | None, progress: Progress, settings: Mapping[str, Any]
-) -> Video:
+class Sheet(_File):
+    """Views of a model in one picture. It shows itself in a notebook.
+
+    Attributes:
+        path: The file; ``None`` if there is none but in memory.
+        report: What ``--report`` writes; ``report["sheet"]`` has the places of the views and scene units per pixel.
+    """
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
+        kind = "image/png" if self._ending == ".png" else "image/jpeg"
+        return {kind: base64.b64encode(self.data()).decode()}
+
+
+def sheet(
+    scene: Any, output: str | os.PathLike[str] | None = None, /, *, progress: Progress = None, **settings: Any
+) -> Sheet:
+    """Renders named views of a model in one picture, with axes and a scale bar.
+
+    Args:
+        scene: As for ``render``.
+        output: A file (.png .jpg); ``None`` keeps a PNG in memory.
+        progress: As for ``render``.
+        **settings: Flags of ``glimray sheet`` with underscores, such as ``size=320`` and ``views=["front", "left"]``.
+
+    Raises:
+        As ``render``.
+    """
+    return _file(Sheet, "sheet", scene, output, ".png", progress, settings)
+
+
+def _file(
+    kind: type[F],
+    command: str,
+    scene: Any,
+    output: str | os.PathLike[str] | None,
+    usual: str,
+    progress: Progress,
+    settings: Mapping[str, Any],
+) -> F:
+    """Runs a command that writes a file, to memory in the usual format if there is no output."""
     source = as_source(scene)
     with _without_arrays(settings) as settings:
         if output is not None:
             path = Path(output)
             said = run(command, source, settings, extra=[f"--output={path}"], progress=progress)
-            return Video(path, None, path.suffix.lower(), said.report)
+            return kind(path, None, path.suffix.lower(), said.report)
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "video.mp4"
+            path = Path(folder) / f"file{usual}"
             said = run(command, source, settings, extra=[f"--output={path}"], progress=progress)
-            return Video(None, path.read_bytes(), ".mp4", said.report)
+            return kind(None, path.read_bytes(), usual, said.report)
 
 
 @dataclass(frozen=True)

@@ -261,6 +261,15 @@ def test_videos_are_files_or_bytes(tmp_path):
     assert turn.report["animation"]["frames"] == 2
 
 
+def test_a_sheet_has_the_bytes_of_the_program(tmp_path):
+    model = ROOT / "assets/scenes/lighthouse.obj"
+    sheet = gl.sheet(model, size=64, views=["front", "top"])
+    program("sheet", model, "--size", "64", "--views", "front,top", "-o", tmp_path / "program.png")
+    assert sheet.data() == (tmp_path / "program.png").read_bytes()
+    assert len(sheet.report["sheet"]["views"]) == 2
+    assert "image/png" in sheet._repr_mimebundle_()
+
+
 def test_pictures_are_compared(tmp_path):
     picture = gl.render(SPHERES, size=(32, 24))
     picture.save(tmp_path / "a.png")
