@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import functools
 import struct
 from collections.abc import Sequence
 from typing import Any
 
 from ._errors import SceneError
 
-try:
-    import numpy as np
-except ImportError:
-    np = None  # type: ignore[assignment]
-
 Rows = Any
+
+
+@functools.cache
+def _numpy() -> Any:
+    """NumPy where it is installed. It is imported when it is needed: that takes longer than a small picture."""
+    try:
+        import numpy
+    except ImportError:
+        return None
+    return numpy
 
 
 class Mesh:
@@ -67,6 +73,7 @@ class Mesh:
         Raises:
             SceneError: It has neither.
         """
+        np = _numpy()
         if isinstance(source, Mesh):
             return source
         if hasattr(source, "extract_surface") or hasattr(source, "regular_faces"):
@@ -95,6 +102,7 @@ class Mesh:
 
     @classmethod
     def _of_open3d(cls, source: Any) -> Mesh:
+        np = _numpy()
         vertices, faces = np.asarray(source.vertices), np.asarray(source.triangles)
         optional = {}
         if len(source.vertex_normals) == len(vertices):
@@ -112,6 +120,7 @@ class Mesh:
 
     @classmethod
     def _of_pyvista(cls, source: Any) -> Mesh:
+        np = _numpy()
         if not hasattr(source, "regular_faces"):
             source = source.extract_surface()
         if not source.is_all_triangles:
@@ -141,6 +150,7 @@ def _first(source: Any, *names: str) -> Any:
 
 def _floats(name: str, rows: Rows, widths: tuple[int, ...]) -> Rows:
     """Rows of floats of one of these widths."""
+    np = _numpy()
     wanted = " or ".join(str(width) for width in widths)
     try:
         if np is not None:
@@ -158,6 +168,7 @@ def _floats(name: str, rows: Rows, widths: tuple[int, ...]) -> Rows:
 
 def _linear(colors: Rows) -> Rows:
     """Linear colours: bytes are sRGB."""
+    np = _numpy()
     if colors is None or np is None:
         return colors
     colors = np.asarray(colors)
@@ -174,6 +185,7 @@ def _linear(colors: Rows) -> Rows:
 
 def _opaque(rows: Rows) -> Rows:
     """Colours with an opacity, which is 1 where there is none."""
+    np = _numpy()
     if np is not None:
         full = np.ones((len(rows), 4), np.float32)
         full[:, : rows.shape[1]] = rows
@@ -182,6 +194,7 @@ def _opaque(rows: Rows) -> Rows:
 
 
 def _interleaved(columns: Sequence[Rows]) -> bytes:
+    np = _numpy()
     if np is not None:
         return np.hstack(columns).astype("<f4").tobytes()
     rows = (sum(parts, ()) for parts in zip(*columns))
@@ -189,6 +202,7 @@ def _interleaved(columns: Sequence[Rows]) -> bytes:
 
 
 def _faces(faces: Rows, count: int) -> tuple[bytes, int]:
+    np = _numpy()
     if faces is None:
         if count % 3:
             raise SceneError(f"bad mesh (faces): {count} vertices are no triangles. Give faces, or three for each.")
