@@ -6,7 +6,7 @@ TARGET := $(or $(CARGO_TARGET_DIR),target)
 FLAGS := --profile ci --locked
 # The program that targets run.
 GLIMRAY = $(TARGET)/release/glimray
-demo test drivers: GLIMRAY = $(TARGET)/ci/glimray
+demo test drivers python-test: GLIMRAY = $(TARGET)/ci/glimray
 
 # Mesa's device-select layer complains on machines without a desktop session (see crates/cli/src/mesa.rs).
 export NODEVICE_SELECT := 1
@@ -28,13 +28,16 @@ skip = echo 'skipped: $(1) ($(2))' >&2; case ",$$GLIMRAY_REQUIRE," in *,$(2),*) 
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint typos deny features headless wasm embedded
+.PHONY: help setup demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint typos deny features headless wasm embedded wheel python-test
 
 help:
 	@echo 'make setup     install the packages of Debian or Ubuntu that targets need; a target calls it for those that it misses'
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 30 minutes the first time, then 12)'
-	@echo 'make test-all  the same, spelling, licences of crates, sets of features, WebAssembly (about 35 minutes the first time)'
+	@echo 'make test-all  the same, spelling, licences of crates, Python, sets of features, WebAssembly (about 35 minutes the first time)'
+	@echo 'make wheel     build the Python module as a wheel, in $(TARGET)/wheels'
+	@echo 'make python-test'
+	@echo '               test it in a Python environment of its own; WHEEL=FILE tests that wheel'
 	@echo 'make farm-test render on a Slurm of its own, which it installs (Debian, as root), and compare the bytes'
 	@echo 'make drivers   test on Mesa of Debian 13 and unstable and on SwiftShader, which it fetches (Debian)'
 	@echo 'make bench     measure speed on built-in scenes'
@@ -75,7 +78,7 @@ test: lint
 	$(CARGO) test $(FLAGS) --workspace
 
 # Checks that take long and seldom fail after a change that passes the tests.
-test-all: typos deny test features headless wasm embedded
+test-all: typos deny test python-test features headless wasm embedded
 
 # Skipped where it cannot be installed or started: it needs Debian or Ubuntu and root.
 farm-test: build driver
@@ -111,16 +114,41 @@ gallery: build driver display
 MDBOOK_VERSION := 0.5.4
 TOOLS := $(abspath $(TARGET)/tools)
 SITE := $(abspath $(TARGET)/site)
-LINKED := assets benches crates examples shaders src tests
+LINKED := assets benches crates docs/notebooks examples shaders src tests
 docs: linker
 	@[ -x $(TOOLS)/bin/mdbook ] || $(CARGO) install mdbook --version $(MDBOOK_VERSION) --locked \
 		--no-default-features --features search --root $(TOOLS)
 	rm -rf $(SITE)
 	mkdir -p $(SITE)
 	$(TOOLS)/bin/mdbook build docs --dest-dir $(SITE)/docs/book
-	cp -R $(LINKED) $(SITE)
+	tar -cf - $(LINKED) | tar -xf - -C $(SITE)
 	docs/check-links.sh $(SITE)/docs/book
 	@echo $(SITE)/docs/book/index.html
+
+# A module for Python 3.10 and later, by maturin of PyPI.
+PYTHON := $(TOOLS)/python
+maturin = [ -x $(PYTHON)/bin/maturin ] || { python3 -m venv $(PYTHON) && $(PYTHON)/bin/pip install --quiet maturin==1.16.0; }
+wheel_of = $(PYTHON)/bin/maturin build $(1) --locked --manifest-path crates/python/Cargo.toml --out
+wheel: compiler shaders
+	@$(maturin)
+	$(call wheel_of,--release) $(TARGET)/wheels
+
+# The wheel is tested as users have it: in a new environment, from a folder where the source of the module is not found.
+# By a name, so that `make -n` does not run the recipe for its sake.
+install_driver = $(MAKE) --no-print-directory driver GLIMRAY=$(GLIMRAY)
+PYTHON_TEST := $(abspath $(TARGET)/python-test)
+python-test: compiler shaders
+	@rm -rf $(PYTHON_TEST); \
+	{ $(if $(WHEEL),,$(maturin) &&) python3 -m venv $(PYTHON_TEST) && \
+		$(PYTHON_TEST)/bin/pip install ipykernel nbclient numpy pillow pytest trimesh; } >/dev/null 2>&1 || { \
+		$(call skip,what the tests in Python need is missing: PyPI and python3 with venv,python); exit 0; }; \
+	set -e -x; \
+	$(CARGO) build $(FLAGS) --workspace --bin glimray; \
+	$(install_driver); \
+	$(if $(WHEEL),,$(call wheel_of,--profile ci) $(PYTHON_TEST)/wheels;) \
+	$(PYTHON_TEST)/bin/pip install --quiet --no-deps $(or $(abspath $(WHEEL)),$(PYTHON_TEST)/wheels/*.whl); \
+	cd $(PYTHON_TEST); \
+	PYTHONPATH= GLIMRAY=$(abspath $(GLIMRAY)) bin/pytest -p no:cacheprovider $(CURDIR)/crates/python/tests
 
 man: build
 	mkdir -p $(TARGET)/man

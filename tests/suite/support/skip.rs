@@ -25,6 +25,8 @@ pub enum Need {
     Models,
     /// Private mounts.
     Mounts,
+    /// Python with the packages of its tests. No test needs it: `make python-test` does.
+    Python,
     /// Named pipes, `/dev/full`, `/proc`, and `script`, which creates terminals.
     Special,
     /// The scenes of the Standard Procedural Database.
@@ -38,7 +40,7 @@ pub enum Need {
 }
 
 impl Need {
-    const ALL: [Self; 14] = [
+    const ALL: [Self; 15] = [
         Self::Advisories,
         Self::Deny,
         Self::Examples,
@@ -48,6 +50,7 @@ impl Need {
         Self::LoopLimit,
         Self::Models,
         Self::Mounts,
+        Self::Python,
         Self::Special,
         Self::Spd,
         Self::Typos,
@@ -66,6 +69,7 @@ impl Need {
             Self::LoopLimit => "loop-limit",
             Self::Models => "models",
             Self::Mounts => "mounts",
+            Self::Python => "python",
             Self::Special => "special",
             Self::Spd => "spd",
             Self::Typos => "typos",
