@@ -140,7 +140,7 @@ PYTHON_TEST := $(abspath $(TARGET)/python-test)
 python-test: compiler shaders
 	@rm -rf $(PYTHON_TEST); \
 	{ $(if $(WHEEL),,$(maturin) &&) python3 -m venv $(PYTHON_TEST) && \
-		$(PYTHON_TEST)/bin/pip install ipykernel nbclient numpy pillow pytest trimesh; } >/dev/null 2>&1 || { \
+		$(PYTHON_TEST)/bin/pip install ipykernel nbclient numpy pillow pytest scipy trimesh; } >/dev/null 2>&1 || { \
 		$(call skip,what the tests in Python need is missing: PyPI and python3 with venv,python); exit 0; }; \
 	set -e -x; \
 	$(CARGO) build $(FLAGS) --workspace --bin glimray; \
