@@ -36,6 +36,7 @@ COMMANDS = {
     "render": "`render`",
     "animate": "`animate`",
     "turntable": "`turntable`",
+    "sheet": "`sheet`",
     "inspect": "`inspect` and `RayQuery`",
     "convert": "`Scene.load`",
 }
