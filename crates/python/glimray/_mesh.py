@@ -90,7 +90,7 @@ class Mesh:
         if hasattr(source, "triangle_uvs") and hasattr(source, "vertex_colors"):
             return cls._of_open3d(source)
         colors = None
-        visual = getattr(source, "visual", None)
+        visual: Any = getattr(source, "visual", None)
         kind = getattr(visual, "kind", None)
         if kind == "face":
             faces = np.asarray(faces)

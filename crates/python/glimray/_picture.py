@@ -10,13 +10,17 @@ import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from . import _native
 from ._errors import SceneError, UsageError
 from ._scene import Source, as_pixels, as_source
 from ._session import Progress, arguments, keywords, native, run, shown
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import AnimateKeywords, RenderKeywords, SheetKeywords, TurntableKeywords
 
 F = TypeVar("F", bound="_File")
 
@@ -62,13 +66,13 @@ class Picture:
         channels = 4 if self._native.has_opacity() else 3
         return np.floor(np.clip(values[..., :channels], 0, 1) * np.float32(255) + np.float32(0.5)).astype(np.uint8)
 
-    def buffer(self) -> memoryview:
+    def buffer(self) -> memoryview[Any]:
         """The values of ``numpy()`` without NumPy: a view of floats, (height, width, 4)."""
         if self._linear is None:
             self._linear = self._native.linear()
         return memoryview(self._linear).cast("B").cast("f", (self.height, self.width, 4))
 
-    def __buffer__(self, _flags: int) -> memoryview:
+    def __buffer__(self, _flags: int) -> memoryview[Any]:
         return self.buffer()
 
     @property
@@ -125,10 +129,11 @@ class Picture:
         known = keywords("explain")
         settings = {name: value for name, value in self._settings.items() if name in known}
         settings |= {"pixel": (x, y), "sample": sample}
-        return json.loads(bytes(run("explain", self._source, settings, extra=["--json"]).printed))
+        explained: dict[str, Any] = json.loads(run("explain", self._source, settings, extra=["--json"]).printed)
+        return explained
 
 
-def render(scene: Any, /, *, progress: Progress = None, **settings: Any) -> Picture:
+def render(scene: Any, /, *, progress: Progress = None, **settings: Unpack[RenderKeywords]) -> Picture:
     """Renders a picture of a scene, a model or a mesh.
 
     A model without camera, lights or ground gets them, as in ``glimray render``.
@@ -149,10 +154,10 @@ def render(scene: Any, /, *, progress: Progress = None, **settings: Any) -> Pict
     """
     source = as_source(scene)
     given = _without_arrays(settings)
-    with given as settings, shown(progress) as report:
-        words = arguments("render", source[0], settings)
+    with given as plain, shown(progress) as report:
+        words = arguments("render", source[0], plain)
         picture, said = native(_native.render, words, source[1], report)
-    return Picture(picture, said.report, source, settings)
+    return Picture(picture, said.report, source, plain)
 
 
 class _without_arrays:
@@ -220,7 +225,12 @@ class Video(_File):
 
 
 def animate(
-    scene: Any, output: str | os.PathLike[str] | None = None, /, *, progress: Progress = None, **settings: Any
+    scene: Any,
+    output: str | os.PathLike[str] | None = None,
+    /,
+    *,
+    progress: Progress = None,
+    **settings: Unpack[AnimateKeywords],
 ) -> Video:
     """Renders the animation of a scene.
 
@@ -237,7 +247,12 @@ def animate(
 
 
 def turntable(
-    scene: Any, output: str | os.PathLike[str] | None = None, /, *, progress: Progress = None, **settings: Any
+    scene: Any,
+    output: str | os.PathLike[str] | None = None,
+    /,
+    *,
+    progress: Progress = None,
+    **settings: Unpack[TurntableKeywords],
 ) -> Video:
     """Renders a model that turns once, as a seamless loop.
 
@@ -267,7 +282,12 @@ class Sheet(_File):
 
 
 def sheet(
-    scene: Any, output: str | os.PathLike[str] | None = None, /, *, progress: Progress = None, **settings: Any
+    scene: Any,
+    output: str | os.PathLike[str] | None = None,
+    /,
+    *,
+    progress: Progress = None,
+    **settings: Unpack[SheetKeywords],
 ) -> Sheet:
     """Renders named views of a model in one picture, with axes and a scale bar.
 
@@ -340,7 +360,7 @@ def compare(a: Any, b: Any, *, tolerance: float = 0.0) -> Comparison:
         (aw, ah), (bw, bh) = first[0], second[0]
         raise SceneError(f"cannot compare: one is {aw}x{ah} pixels, the other {bw}x{bh}. Give pictures of one size.")
     rmse, psnr, flip, largest, at, beyond = _native.compare(first, second, float(tolerance))
-    return Comparison(rmse, psnr, flip, largest, tuple(at), beyond)
+    return Comparison(rmse, psnr, flip, largest, (at[0], at[1]), beyond)
 
 
 def _compared(picture: Any) -> tuple[tuple[int, int], bytes, bool, bool]:

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._errors import SceneError
 from ._scene import as_source
 from ._session import arguments, call
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import InspectKeywords
 
 
 # As the native part writes it.
@@ -55,7 +60,15 @@ class RayQuery:
     >>> hits.distances, hits.triangles, hits.normals
     """
 
-    def __init__(self, scene: Any, *, time: float = 0.0, adapter: str | None = None, **settings: Any) -> None:
+    def __init__(
+        self,
+        scene: Any,
+        /,
+        *,
+        time: float = 0.0,
+        adapter: str | None = None,
+        **settings: Unpack[InspectKeywords],
+    ) -> None:
         name, files = as_source(scene)
         if not name.endswith((".toml", ".scene", ".nff")):
             settings.setdefault("bare", True)

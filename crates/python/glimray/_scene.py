@@ -8,12 +8,17 @@ import os
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._errors import SceneError
 from ._mesh import Mesh
 from ._session import arguments, native, run
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import ConvertKeywords, InspectKeywords
 
 Source = tuple[str, dict[str, bytes] | None]
 
@@ -37,7 +42,7 @@ class Scene:
         self.files: dict[str, bytes] = dict(files or {})
 
     @classmethod
-    def load(cls, source: Any, **settings: Any) -> Scene:
+    def load(cls, source: Any, /, **settings: Unpack[ConvertKeywords]) -> Scene:
         """Reads a scene or a model, in any format and form that ``render`` takes.
 
         Lights, a ground and a camera are added to a model as ``render`` adds them; ``bare=True`` adds nothing.
@@ -145,7 +150,7 @@ class Scene:
             background = {"picture": self._add_picture("background", background, "exr"), **table}
         self.document["background"] = background
 
-    def inspect(self, **settings: Any) -> dict[str, Any]:
+    def inspect(self, **settings: Unpack[InspectKeywords]) -> dict[str, Any]:
         """The contents of the scene as ``glimray inspect --json`` tells them."""
         return inspect(self, **settings)
 
@@ -243,7 +248,7 @@ def _scene_ending(data: bytes) -> str:
     return "toml"
 
 
-def inspect(scene: Any, **settings: Any) -> dict[str, Any]:
+def inspect(scene: Any, /, **settings: Unpack[InspectKeywords]) -> dict[str, Any]:
     """The contents of a scene: counts, bounds, cameras, lights, materials, and everything that was skipped.
 
     Args:
@@ -254,4 +259,5 @@ def inspect(scene: Any, **settings: Any) -> dict[str, Any]:
         What ``glimray inspect --json`` prints.
     """
     said = run("inspect", as_source(scene), settings, extra=["--json"])
-    return json.loads(bytes(said.printed))
+    contents: dict[str, Any] = json.loads(said.printed)
+    return contents

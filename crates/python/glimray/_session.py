@@ -128,7 +128,7 @@ def run(
     name, files = source
     words = [*arguments(command, name, settings, function), *extra]
     with shown(progress) as report:
-        said = native(_native.run, words, files, report)
+        said: _native.Ran = native(_native.run, words, files, report)
     return said
 
 
@@ -178,7 +178,7 @@ class shown:
 def _bar() -> Any:
     """A bar of tqdm where it is installed, else one of our own."""
     try:
-        from tqdm.auto import tqdm
+        from tqdm.auto import tqdm  # type: ignore[import-untyped,unused-ignore]
     except ImportError:
         return _Bar()
 
