@@ -3,7 +3,7 @@
 //! texture.
 //!
 //! ```text
-//! cargo run --release --example embed -- assets/scenes/showcase.toml [--until-done]
+//! cargo run --release --example embed -- assets/scenes/still_life.toml [--until-done]
 //! ```
 
 use glimray::gpu::Gpu;

@@ -29,7 +29,7 @@ skips=(--skip shader_library:: --skip examples:: --skip import:: --skip imports:
 # Nothing is left to chance in pictures of one Whitted sample in each pixel: drivers may only round.
 exact=(assets/scenes/*.{toml,scene,nff,obj,glb})
 # Rounding decides single choices of paths. Means are compared.
-means=(assets/scenes/{cornell_box.toml,glass_and_mirrors.toml,showcase.toml,flower.glb,helmet.glb})
+means=(crates/app/src/showcase.toml assets/scenes/{cornell_box.toml,glass_and_mirrors.toml,flower.glb,helmet.glb})
 timed=(assets/scenes/{glass_and_mirrors.toml,helmet.glb})
 # Seconds for a command: a driver may be stuck.
 limit=600

@@ -7,10 +7,7 @@ use glimray_scene::Scene;
 /// The scene's name in reports.
 pub const NAME: &str = "showcase.toml";
 
-const TEXT: &str = include_str!(concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/../../assets/scenes/showcase.toml"
-));
+const TEXT: &str = include_str!("showcase.toml");
 
 /// Overrides of the version for paths. The sun lights the balls from behind, and light that is scattered takes the place
 /// of ambient light. Balls of pearl take that of glass, and the lens is gone: both need more samples than a demo has time

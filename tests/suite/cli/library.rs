@@ -76,7 +76,7 @@ fn one_call_gives_the_picture_of_the_program() {
     let rows = [
         (workspace.path("a.scene"), given(None, None, 0.0), ""),
         (
-            folder.join("showcase.toml"),
+            folder.join("../../crates/app/src/showcase.toml"),
             given(Some((48, 36)), Some(4), 0.0),
             "--size 48x36 --samples 4",
         ),

@@ -88,6 +88,9 @@ fn wait(window: &mut Window, path: &Path) {
     window.settle();
 }
 
+/// The scene of the demo, from the folder of the others.
+const SHOWCASE: &str = "../../crates/app/src/showcase.toml";
+
 /// Opens a scene, lets `change` happen, and holds the screen against the picture of a command line that says the same.
 #[track_caller]
 fn check(scene: &str, flags: &[&str], change: impl FnOnce(&mut Window) -> Vec<String>) {
@@ -115,7 +118,7 @@ fn raw<'a>(flags: &[&'a str]) -> Vec<&'a str> {
 fn what_is_on_the_screen_is_the_png_of_the_command_line() {
     let flags = ["--size", "72x48", "--samples", "4"];
     for scene in [
-        "showcase.toml",
+        SHOWCASE,
         "glass_and_mirrors.toml",
         "lights.toml",
         "depth_of_field.toml",
@@ -171,7 +174,7 @@ fn a_background_that_was_changed_gives_the_png_of_the_command_line() {
 #[test]
 fn a_camera_that_was_moved_gives_the_png_of_the_command_line() {
     let flags = ["--size", "72x48", "--samples", "4"];
-    for scene in ["showcase.toml", "far_away.toml", "mesh.toml"] {
+    for scene in [SHOWCASE, "far_away.toml", "mesh.toml"] {
         check(scene, &flags, |window| {
             let mut session = window.session();
             let rig = session.controller.as_mut().expect("a rig");

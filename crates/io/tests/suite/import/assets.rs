@@ -201,7 +201,7 @@ fn native_scenes_begin_with_what_they_show() {
 
 #[test]
 fn the_showcase_needs_no_files() {
-    let text = std::fs::read_to_string(path("showcase.toml")).expect("text");
+    let text = std::fs::read_to_string(path("../../crates/app/src/showcase.toml")).expect("text");
     let scene = import::parse("showcase.toml", &text, &Options::default()).expect("a scene");
     assert!(scene.shapes.len() > 50);
     // Soft shadows, depth of field, mirrors and glass.
