@@ -167,7 +167,7 @@ strips: build driver
 # the frames and the video on top. `make` links the kernels again.
 HAND_IN_FOLDER ?= .
 LEFT_OUT := .github assets/scenes/flower.glb assets/scenes/helmet.glb benches/peers docs/hand_in fuzz shaders/linked \
-	tests/farm tests/fuzz/corpus tests/fuzz/regressions tests/fuzz/seeds tests/golden tests/references tests/snapshots
+	shaders/LICENSE-* 'crates/*/LICENSE-*' tests/farm tests/fuzz/corpus tests/fuzz/regressions tests/fuzz/seeds tests/golden tests/references tests/snapshots
 export NAME
 hand-in:
 	$(if $(NAME),,$(error hand-in: NAME is missing. Use `make hand-in NAME=YourName`))

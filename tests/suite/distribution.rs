@@ -464,7 +464,49 @@ const PUBLISHED: [(&str, &str, &[&str]); 6] = [
         "shaders/",
         &["src", "kernels", "lib", "linked", "scene", "types"],
     ),
+    ("glimray-viewer", "crates/viewer/", &["src"]),
 ];
+
+#[test]
+fn every_package_that_is_published_says_what_it_is() {
+    let mut verdict = Verdict::on("packages");
+    let mut members: Vec<_> = fs::read_dir("crates").expect("a folder").collect();
+    members.extend(fs::read_dir(".").expect("a folder"));
+    let mut published = BTreeSet::new();
+    for folder in members
+        .into_iter()
+        .map(|entry| entry.expect("an entry").path())
+    {
+        let Ok(text) = fs::read_to_string(folder.join("Cargo.toml")) else {
+            continue;
+        };
+        let manifest: toml::Table = text.parse().expect("TOML");
+        let package = &manifest["package"];
+        // It needs a nightly compiler, and is no member.
+        let is_private = package.get("publish").and_then(toml::Value::as_bool) == Some(false);
+        if !is_private {
+            published.insert(package["name"].as_str().expect("text").to_owned());
+        }
+    }
+    published.insert("glimray".to_owned());
+    let known = PUBLISHED.map(|(package, ..)| package.to_owned());
+    verdict.that("published", published == known.into(), || {
+        format!("{published:?}")
+    });
+    for (package, root, _) in PUBLISHED {
+        let manifest: toml::Table = read(format!("{root}Cargo.toml")).parse().expect("TOML");
+        for key in ["description", "keywords", "categories", "license"] {
+            let has = manifest["package"].get(key).is_some();
+            verdict.that(format!("{package}: {key}"), has, || "is missing");
+        }
+        let names = packed(package);
+        for file in ["README.md", "LICENSE-APACHE", "LICENSE-MIT"] {
+            let is_there = names.iter().any(|name| name == file);
+            verdict.that(format!("{package}: {file}"), is_there, || "is missing");
+        }
+    }
+    verdict.close();
+}
 
 #[test]
 fn packages_have_all_that_the_compiler_reads() {
