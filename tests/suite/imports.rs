@@ -14,6 +14,7 @@ const PACKAGES: &[(&str, &[&str])] = &[
     ("scene", &[]),
     ("shaders", &[]),
     ("link", &[]),
+    ("notices", &[]),
     ("shader-test", &[]),
     ("io", &["scene"]),
     ("render", &["scene", "shaders"]),
@@ -35,6 +36,7 @@ const MODULES: &[(&str, &str, &[&str])] = &[
     ("scene", "image", &[]),
     ("shaders", "shaders", &[]),
     ("link", "link", &[]),
+    ("notices", "notices", &[]),
     ("shader-test", "shader-test", &[]),
     ("render", "layout", &[]),
     ("render", "gpu", &["bytes", "clock", "shaders"]),
@@ -322,7 +324,7 @@ fn flag(code: &str) -> Option<&str> {
 fn only_the_program_knows_flags_exit_codes_and_the_terminal() {
     let mut verdict = Verdict::on("sources without the program");
     let of_program = |path: &Path| {
-        ["app", "cli", "link", "main", "python", "viewer"].contains(&&*module_of(path))
+        ["app", "cli", "link", "main", "notices", "python", "viewer"].contains(&&*module_of(path))
     };
     for (path, text) in rust_files() {
         if of_program(&path) {
@@ -356,7 +358,7 @@ fn only_a_few_files_of_the_library_need_more_than_a_browser_has() {
     ];
     // A browser has the clock of these, and the files that ask first.
     const PARTS: &[&str] = &[
-        "app", "cli", "link", "main", "python", "viewer", "output", "clock",
+        "app", "cli", "link", "main", "notices", "python", "viewer", "output", "clock",
     ];
     const FILES: &[&str] = &[
         "crates/io/src/import/folder.rs",
