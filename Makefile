@@ -28,16 +28,19 @@ skip = echo 'skipped: $(1) ($(2))' >&2; case ",$$GLIMRAY_REQUIRE," in *,$(2),*) 
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint typos deny features headless wasm embedded wheel python-test
+.PHONY: help setup demo test test-all package dist dist-test farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint typos deny features headless wasm embedded wheel python-test
 
 help:
 	@echo 'make setup     install the packages of Debian or Ubuntu that targets need; a target calls it for those that it misses'
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 30 minutes the first time, then 12)'
-	@echo 'make test-all  the same, spelling, licences of crates, Python, sets of features, WebAssembly (about 35 minutes the first time)'
+	@echo 'make test-all  the same, spelling, licences of crates, Python, sets of features, WebAssembly (about 38 minutes the first time)'
 	@echo 'make wheel     build the Python module as a wheel, in $(TARGET)/wheels'
 	@echo 'make python-test'
 	@echo '               test it in a Python environment of its own; WHEEL=FILE tests that wheel'
+	@echo 'make package   build each crate that is published from its own archive'
+	@echo 'make dist      build the program and pack it for this platform: archive, Debian package, checksums'
+	@echo 'make dist-test install these in new systems of Debian, render and open the window there (Debian, as root)'
 	@echo 'make farm-test render on a Slurm of its own, which it installs (Debian, as root), and compare the bytes'
 	@echo 'make drivers   test on Mesa of Debian 13 and unstable and on SwiftShader, which it fetches (Debian)'
 	@echo 'make bench     measure speed on built-in scenes'
@@ -80,6 +83,26 @@ test: lint
 # Checks that take long and seldom fail after a change that passes the tests.
 test-all: typos deny test python-test features headless wasm embedded
 
+# The crates build in the order of their dependencies, each from what its archive has; the folder keeps what others need.
+# Only release builds embed the kernels, so that their archive is checked as one too.
+VERIFY := $(abspath $(TARGET)/verify)
+PRIVATE := $(patsubst %,--exclude %,glimray-link glimray-notices glimray-python)
+package: compiler shaders
+	CARGO_TARGET_DIR=$(VERIFY) CARGO_PROFILE_DEV_DEBUG=false $(CARGO) package --locked --allow-dirty --workspace $(PRIVATE)
+	rm -rf $(VERIFY)/shaders && mkdir $(VERIFY)/shaders
+	tar -x -f $(VERIFY)/package/glimray-shaders-*.crate -C $(VERIFY)/shaders --strip-components 1
+	CARGO_TARGET_DIR=$(VERIFY) $(CARGO) check --release --manifest-path $(VERIFY)/shaders/Cargo.toml
+
+DIST ?= $(TARGET)/dist
+dist: compiler shaders
+	packaging/dist.sh $(DIST)
+
+# Skipped without Debian and root. Files of desktops are checked too, where the programs for it are.
+dist-test: $(if $(wildcard $(DIST)/SHA256SUMS),,dist)
+	@if command -v apt-get >/dev/null && [ "$$(id -u)" -eq 0 ]; then \
+		$(install)'debootstrap appstream desktop-file-utils shared-mime-info xvfb xdotool'; fi
+	tests/dist/run.sh $(TARGET)/dist-test $(DIST)
+
 # Skipped where it cannot be installed or started: it needs Debian or Ubuntu and root.
 farm-test: build driver
 	@{ command -v slurmctld && command -v slurmd && command -v munged; } >/dev/null || \
@@ -114,7 +137,7 @@ gallery: build driver display
 MDBOOK_VERSION := 0.5.4
 TOOLS := $(abspath $(TARGET)/tools)
 SITE := $(abspath $(TARGET)/site)
-LINKED := assets benches crates docs/notebooks examples shaders src tests
+LINKED := assets benches crates docs/notebooks examples packaging shaders src tests
 docs: linker
 	@[ -x $(TOOLS)/bin/mdbook ] || $(CARGO) install mdbook --version $(MDBOOK_VERSION) --locked \
 		--no-default-features --features search --root $(TOOLS)

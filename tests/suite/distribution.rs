@@ -1,9 +1,11 @@
 //! Products of the repository: the package, the hand-in, the manual pages; and what the files for
 //! building them say of each other.
 
-// The hand-in is made by `make`.
+// The hand-in is made by `make`, and releases by scripts.
 #[cfg(unix)]
 mod hand_in;
+#[cfg(unix)]
+mod release;
 
 use crate::support::program::Workspace;
 use crate::support::verdict::Verdict;
@@ -199,6 +201,8 @@ fn containers_and_workflows_use_the_rust_of_the_manifest() {
         ("Dockerfile", "FROM rust:"),
         (".github/workflows/ci.yml", "rustup toolchain install "),
         (".github/workflows/ci.yml", "rustup default "),
+        (".github/workflows/release.yml", "rustup toolchain install "),
+        (".github/workflows/release.yml", "rustup default "),
     ] {
         let text = read(path);
         let found: Vec<_> = text.split(begin).skip(1).collect();
@@ -372,13 +376,22 @@ fn links_of_pages_lead_to_files_and_pictures_of_the_gallery_are_on_pages() {
     .map(str::to_owned)
     .to_vec();
     for folder in [
-        "assets", "benches", "crates", "docs", "examples", "shaders", "src", "tests",
+        "assets",
+        "benches",
+        "crates",
+        "docs",
+        "examples",
+        "packaging",
+        "shaders",
+        "src",
+        "tests",
     ] {
         names.extend(all_files(Path::new(folder)));
     }
     names.extend(
         [
             ".github/workflows/ci.yml",
+            ".github/workflows/release.yml",
             "Dockerfile",
             "LICENSE-APACHE",
             "LICENSE-MIT",
@@ -453,8 +466,10 @@ fn the_package_has_what_is_built_and_shown_and_nothing_else() {
 }
 
 /// Folders of published packages, and the folders there that the compiler reads.
-const PUBLISHED: [(&str, &str, &[&str]); 6] = [
+const PUBLISHED: [(&str, &str, &[&str]); 9] = [
     ("glimray", "", &["src", "examples", "assets/scenes"]),
+    ("glimray-app", "crates/app/", &["src"]),
+    ("glimray-cli", "crates/cli/", &["src"]),
     ("glimray-io", "crates/io/", &["src"]),
     ("glimray-render", "crates/render/", &["src"]),
     ("glimray-scene", "crates/scene/", &["src"]),

@@ -44,7 +44,15 @@ fn the_map_of_the_readme_has_the_top_folders() {
     let text = readme();
     let (_, map) = text.split_once("\n## Map\n").expect("the map");
     let folders = [
-        "assets", "benches", "crates", "docs", "examples", "shaders", "src", "tests",
+        "assets",
+        "benches",
+        "crates",
+        "docs",
+        "examples",
+        "packaging",
+        "shaders",
+        "src",
+        "tests",
     ];
     for folder in folders {
         assert!(Path::new(folder).is_dir(), "{folder}");

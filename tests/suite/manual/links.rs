@@ -92,12 +92,13 @@ fn links_of_the_book_work_in_the_built_book_too() {
 
 #[test]
 fn files_and_tests_that_the_manual_names_are_there() {
-    const FOLDERS: [&str; 8] = [
+    const FOLDERS: [&str; 9] = [
         "assets/",
         "benches/",
         "crates/",
         "examples/",
         "fuzz/",
+        "packaging/",
         "shaders/",
         "src/",
         "tests/",
