@@ -35,11 +35,15 @@ pub fn fill(image: &mut Image, corner: [u32; 2], [width, height]: [u32; 2], colo
     }
 }
 
+/// The number of letters that fit into `width` pixels.
+pub fn fitting(width: u32) -> usize {
+    (width / LETTER_WIDTH) as usize
+}
+
 /// Writes letters to the right of the pixel `corner`, which is their upper left one, as far as they fit into `width`
 /// pixels. A question mark stands for others than those of Western European languages.
 pub fn write(image: &mut Image, corner: [i64; 2], width: u32, text: &str, color: Color) {
-    let fitting = (width / LETTER_WIDTH) as usize;
-    for (index, letter) in text.chars().take(fitting).enumerate() {
+    for (index, letter) in text.chars().take(fitting(width)).enumerate() {
         let of = |letter| get_raster(letter, WEIGHT, HEIGHT);
         let left = corner[0] + index as i64 * i64::from(LETTER_WIDTH);
         let rows = of(letter).or_else(|| of('?')).into_iter();

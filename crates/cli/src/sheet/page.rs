@@ -7,6 +7,7 @@ use crate::report::{SceneReport, SheetReport, SheetView};
 use glam::{DMat3, DVec2, DVec3};
 use glimray_app::legend;
 use glimray_scene::image::Image;
+use std::iter;
 
 /// The space around the page and between views, and the height of a line, in pixels.
 const GAP: u32 = 12;
@@ -117,11 +118,18 @@ impl Page {
             (counts.shapes, "other shapes"),
         ];
         let counts = counts.iter().filter(|(count, _)| *count > 0);
-        let counts: String = counts
-            .map(|(count, what)| format!("  {count} {what}"))
-            .collect();
-        let text = format!("{name}  {x} × {y} × {z}{counts}");
-        self.write([GAP, GAP], self.image.width - 2 * GAP, &text);
+        let counts = counts.map(|(count, what)| format!("{count} {what}"));
+        let width = self.image.width - 2 * GAP;
+        let mut text = name.to_owned();
+        for part in iter::once(format!("{x} × {y} × {z}")).chain(counts) {
+            let longer = format!("{text}  {part}");
+            // A narrow page has no room for all.
+            if longer.chars().count() > canvas::fitting(width) {
+                break;
+            }
+            text = longer;
+        }
+        self.write([GAP, GAP], width, &text);
     }
 
     /// Draws the scale bar of the views along an axis, if there are any.
