@@ -99,10 +99,12 @@ pub fn keywords(command: &str) -> Vec<Keyword> {
                 .unwrap_or_default(),
         })
     };
-    arguments
-        .filter_map(keyword)
-        .filter(|keyword| !COMMAND_LINE_ONLY.contains(&keyword.name.as_str()))
-        .collect()
+    let is_known = |keyword: &Keyword| {
+        // A picture that is rendered is saved later.
+        let is_late = command == "render" && keyword.name == "quality";
+        !is_late && !COMMAND_LINE_ONLY.contains(&keyword.name.as_str())
+    };
+    arguments.filter_map(keyword).filter(is_known).collect()
 }
 
 /// Environment variables for Mesa's drivers that are missing: see `mesa.rs`. They must be set before the first device is
