@@ -3,7 +3,7 @@
 use crate::errors::Failure;
 use crate::host::Session;
 use crate::{Files, devices, words};
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Vec3};
 use glimray_cli::embedded;
 use glimray_render::gpu::AdapterChoice;
 use glimray_render::pack::{self, PackedScene};
@@ -261,10 +261,11 @@ fn sorted(mut corners: [u32; 3]) -> [u32; 3] {
 
 /// Rays of rows of three doubles, and of one float each for the distance at which they end.
 fn rays(origins: &[u8], directions: &[u8], t_max: Option<&[u8]>) -> PyResult<Vec<QueryRay>> {
-    let rows = |bytes: &[u8]| -> Vec<DVec3> {
-        let rows = bytes.as_chunks::<24>().0.iter();
-        rows.map(|row| DVec3::from(bytemuck::pod_read_unaligned::<[f64; 3]>(row)))
-            .collect()
+    let rows = |bytes: &[u8]| {
+        let rows = bytes.as_chunks::<24>().0;
+        threads::collect(rows.len(), |row| {
+            DVec3::from(bytemuck::pod_read_unaligned::<[f64; 3]>(&rows[row]))
+        })
     };
     let (origins, directions) = (rows(origins), rows(directions));
     let ends = t_max.map(|bytes| {
@@ -275,19 +276,21 @@ fn rays(origins: &[u8], directions: &[u8], t_max: Option<&[u8]>) -> PyResult<Vec
     if directions.len() != count || ends.as_ref().is_some_and(|ends| ends.len() != count) {
         return Err(PyValueError::new_err("rows of different numbers"));
     }
-    let ray = |(row, (origin, direction)): (usize, (DVec3, DVec3))| {
-        let unit = direction.try_normalize();
+    let rays = threads::collect(count, |row| {
+        let unit = directions[row].normalize_or_zero();
         let end = ends.as_ref().map_or(QueryRay::FAR, |ends| ends[row]);
-        match unit {
-            Some(unit) if origin.is_finite() && !end.is_nan() => Ok(QueryRay {
-                t_max: end.min(QueryRay::FAR),
-                ..QueryRay::new(origin, unit.as_vec3())
-            }),
-            _ => Err(PyValueError::new_err(format!(
-                "bad ray (row {row}): its origin is not finite, or its direction is zero or not finite"
-            ))),
+        QueryRay {
+            t_max: end.min(QueryRay::FAR),
+            ..QueryRay::new(origins[row], unit.as_vec3())
         }
-    };
-    let rows = origins.into_iter().zip(directions).enumerate();
-    rows.map(ray).collect()
+    });
+    let is_bad = |ray: &QueryRay| ray.direction == Vec3::ZERO || !ray.origin.is_finite();
+    let has_nan = |ends: &Vec<f32>| ends.iter().position(|end| end.is_nan());
+    let bad = (rays.iter().position(is_bad)).or_else(|| ends.as_ref().and_then(has_nan));
+    match bad {
+        None => Ok(rays),
+        Some(row) => Err(PyValueError::new_err(format!(
+            "bad ray (row {row}): its origin or its length is not finite, or its direction is zero or not finite"
+        ))),
+    }
 }
