@@ -76,6 +76,9 @@ class Mesh:
         np = _numpy()
         if isinstance(source, Mesh):
             return source
+        if hasattr(source, "to_legacy"):
+            # A mesh of Open3D's tensors.
+            source = source.to_legacy()
         if hasattr(source, "extract_surface") or hasattr(source, "regular_faces"):
             return cls._of_pyvista(source)
         vertices = _first(source, "vertices", "points")
@@ -122,13 +125,12 @@ class Mesh:
     def _of_pyvista(cls, source: Any) -> Mesh:
         np = _numpy()
         if not hasattr(source, "regular_faces"):
-            source = source.extract_surface()
+            source = _surface(source)
         if not source.is_all_triangles:
             source = source.triangulate()
         data = source.point_data
+        # Normals of points are means over all edges, which PyVista itself shows only when it is asked for.
         optional = {}
-        if data.active_normals is not None:
-            optional["normals"] = data.active_normals
         if data.active_texture_coordinates is not None:
             optional["uvs"] = data.active_texture_coordinates
         colors = data.active_scalars
@@ -142,6 +144,14 @@ class Mesh:
         header += "".join(f"property float {name}\n" for name in self._names)
         header += f"element face {self._face_count}\nproperty list uchar uint vertex_indices\nend_header\n"
         return b"".join([header.encode(), self._vertices, self._faces])
+
+
+def _surface(source: Any) -> Any:
+    """The surface of a data set of PyVista. Versions before 0.47 know no algorithms and have this one."""
+    try:
+        return source.extract_surface(algorithm="dataset_surface")
+    except TypeError:
+        return source.extract_surface()
 
 
 def _first(source: Any, *names: str) -> Any:
