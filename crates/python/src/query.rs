@@ -6,6 +6,7 @@ use crate::{Files, devices, words};
 use glam::{DAffine3, DVec3, Vec3};
 use glimray_cli::embedded;
 use glimray_render::gpu::AdapterChoice;
+use glimray_render::layout::NO_INSTANCE;
 use glimray_render::pack::{self, PackedScene};
 use glimray_render::{Coherence, ExecutionPolicy, QueryHit, QueryRay, RayBatch, RenderError};
 use glimray_scene::{Frame, ObjectRef, Scene, threads};
@@ -16,6 +17,9 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, OnceLock};
+
+/// Rays that are traced at once: few enough for the caches of a processor, many enough for a GPU.
+const CHUNK: usize = 1 << 18;
 
 /// A number that has not been looked up.
 const UNKNOWN: u32 = u32::MAX;
@@ -59,18 +63,24 @@ impl RayQuery {
         t_max: Option<&[u8]>,
         is_coherent: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let rays = rays(origins, directions, t_max)?;
-        let found = py.detach(|| {
-            let batch = self.batch(&rays, is_coherent)?;
-            let hits = self.query.closest_hits_of(&batch)?;
+        let given = Given::new(origins, directions, t_max)?;
+        let mut rows = vec![Row::MISS; given.count()];
+        py.detach(|| {
             let places = self.places();
-            Ok(threads::collect(hits.len(), |index| {
-                let hit = hits[index];
-                hit.map_or(Row::MISS, |hit| self.row(&places, &rays[index], &hit))
-            }))
-        });
-        let found: Vec<Row> = found.map_err(|error| raised(py, error))?;
-        Ok(PyBytes::new(py, bytemuck::cast_slice(&found)))
+            let mut chunks = rows.chunks_mut(CHUNK);
+            given.for_chunks(|rays| {
+                let hits = self
+                    .query
+                    .closest_hits_of(&self.batch(rays, is_coherent)?)?;
+                threads::fill(chunks.next().unwrap_or_default(), |index| {
+                    let hit = hits[index];
+                    hit.map_or(Row::MISS, |hit| self.row(&places, &rays[index], &hit))
+                });
+                Ok(())
+            })
+        })
+        .map_err(|failure| failure.raised(py))?;
+        Ok(PyBytes::new(py, bytemuck::cast_slice(&rows)))
     }
 
     /// Whether something is in the way of each ray: a byte each.
@@ -82,16 +92,17 @@ impl RayQuery {
         t_max: Option<&[u8]>,
         is_coherent: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let rays = rays(origins, directions, t_max)?;
-        let occluded = py.detach(|| {
-            let batch = self.batch(&rays, is_coherent)?;
-            self.query.occluded_of(&batch)
-        });
-        let occluded = occluded.map_err(|error| raised(py, error))?;
-        Ok(PyBytes::new(
-            py,
-            &occluded.into_iter().map(u8::from).collect::<Vec<_>>(),
-        ))
+        let given = Given::new(origins, directions, t_max)?;
+        let mut found = Vec::with_capacity(given.count());
+        py.detach(|| {
+            given.for_chunks(|rays| {
+                let occluded = self.query.occluded_of(&self.batch(rays, is_coherent)?)?;
+                found.extend(occluded.into_iter().map(u8::from));
+                Ok(())
+            })
+        })
+        .map_err(|failure| failure.raised(py))?;
+        Ok(PyBytes::new(py, &found))
     }
 
     /// The names of the objects, by their numbers.
@@ -104,10 +115,6 @@ impl RayQuery {
             .map(|object| self.scene.object_name(object).to_owned())
             .collect()
     }
-}
-
-fn raised(py: Python, error: RenderError) -> PyErr {
-    Failure::App(error.into()).raised(py)
 }
 
 /// What a ray hits.
@@ -177,6 +184,12 @@ impl RayQuery {
             .collect()
     }
 
+    fn world_from(&self, node: Option<usize>) -> DAffine3 {
+        node.map_or(DAffine3::IDENTITY, |node| {
+            self.frame.nodes[node].world_from_node
+        })
+    }
+
     fn row(&self, places: &[DAffine3], ray: &QueryRay, hit: &QueryHit) -> Row {
         let found = match self.query.object_of(hit) {
             Some(ObjectRef::Instance(index)) => self.on_triangle(index, places[index], hit),
@@ -203,41 +216,34 @@ impl RayQuery {
         }
     }
 
-    /// The numbers of an instance and of its triangle that is hit, and the triangle's normal.
+    /// The numbers of an instance and of its triangle that is hit, and the triangle's normal: that of the side from which
+    /// its corners run counter-clockwise in the mesh.
     fn on_triangle(
         &self,
         index: usize,
         world_from_mesh: DAffine3,
         hit: &QueryHit,
     ) -> Option<(usize, i32, DVec3)> {
-        let corners = self.packed.corners_at(hit.primitive, hit.instance)?;
-        let mesh = self.scene.instances[index].mesh;
         let kept = &self.numbers[hit.primitive as usize];
         let number = match kept.load(Ordering::Relaxed) {
             UNKNOWN => {
+                let corners = self.packed.corners_at(hit.primitive, hit.instance)?;
+                let mesh = self.scene.instances[index].mesh;
                 let number = *self.triangles()[mesh].get(&sorted(corners))?;
                 kept.store(number, Ordering::Relaxed);
                 number
             }
             number => number,
         };
-        let normal = self.triangle_normal(mesh, corners, world_from_mesh);
-        Some((index, number as i32, normal))
-    }
-
-    fn world_from(&self, node: Option<usize>) -> DAffine3 {
-        node.map_or(DAffine3::IDENTITY, |node| {
-            self.frame.nodes[node].world_from_node
-        })
-    }
-
-    /// The unit normal of the side from which the corners run counter-clockwise.
-    fn triangle_normal(&self, mesh: usize, corners: [u32; 3], world_from_mesh: DAffine3) -> DVec3 {
-        let positions = &self.scene.meshes[mesh].positions;
-        let [a, b, c] = corners.map(|corner| positions[corner as usize].as_dvec3());
-        let [u, v] = [b - a, c - a].map(|edge| world_from_mesh.transform_vector3(edge));
+        let triangle = self.packed.triangles.get(hit.primitive as usize)?;
+        let [a, b, c] = [triangle.v0, triangle.v1, triangle.v2].map(|v| Vec3::from(v).as_dvec3());
+        let edges = match hit.instance {
+            NO_INSTANCE => [b - a, c - a],
+            _ => [b - a, c - a].map(|edge| world_from_mesh.transform_vector3(edge)),
+        };
         let side = world_from_mesh.matrix3.determinant().signum();
-        (side * u.cross(v)).normalize_or_zero()
+        let normal = (side * edges[0].cross(edges[1])).normalize_or_zero();
+        Some((index, number as i32, normal))
     }
 
     fn triangles(&self) -> &[HashMap<[u32; 3], u32>] {
@@ -259,38 +265,64 @@ fn sorted(mut corners: [u32; 3]) -> [u32; 3] {
     corners
 }
 
-/// Rays of rows of three doubles, and of one float each for the distance at which they end.
-fn rays(origins: &[u8], directions: &[u8], t_max: Option<&[u8]>) -> PyResult<Vec<QueryRay>> {
-    let rows = |bytes: &[u8]| {
-        let rows = bytes.as_chunks::<24>().0;
-        threads::collect(rows.len(), |row| {
-            DVec3::from(bytemuck::pod_read_unaligned::<[f64; 3]>(&rows[row]))
-        })
-    };
-    let (origins, directions) = (rows(origins), rows(directions));
-    let ends = t_max.map(|bytes| {
-        let ends = bytes.as_chunks::<4>().0.iter();
-        ends.map(|end| f32::from_ne_bytes(*end)).collect::<Vec<_>>()
-    });
-    let count = origins.len();
-    if directions.len() != count || ends.as_ref().is_some_and(|ends| ends.len() != count) {
-        return Err(PyValueError::new_err("rows of different numbers"));
+/// Rays as Python gives them: rows of three doubles, and a float each for the distance at which they end.
+struct Given<'a> {
+    origins: &'a [[u8; 24]],
+    directions: &'a [[u8; 24]],
+    ends: Option<&'a [[u8; 4]]>,
+}
+
+impl<'a> Given<'a> {
+    fn new(origins: &'a [u8], directions: &'a [u8], ends: Option<&'a [u8]>) -> PyResult<Self> {
+        let given = Self {
+            origins: origins.as_chunks().0,
+            directions: directions.as_chunks().0,
+            ends: ends.map(|ends| ends.as_chunks().0),
+        };
+        let count = given.count();
+        match given.directions.len() == count && given.ends.is_none_or(|it| it.len() == count) {
+            true => Ok(given),
+            false => Err(PyValueError::new_err("rows of different numbers")),
+        }
     }
-    let rays = threads::collect(count, |row| {
-        let unit = directions[row].normalize_or_zero();
-        let end = ends.as_ref().map_or(QueryRay::FAR, |ends| ends[row]);
+
+    fn count(&self) -> usize {
+        self.origins.len()
+    }
+
+    /// A ray; its direction is zero if it cannot be traced.
+    fn ray(&self, row: usize) -> QueryRay {
+        let vector =
+            |bytes: &[u8; 24]| DVec3::from(bytemuck::pod_read_unaligned::<[f64; 3]>(bytes));
+        let origin = vector(&self.origins[row]);
+        let direction = vector(&self.directions[row]).normalize_or_zero().as_vec3();
+        let end = self
+            .ends
+            .map_or(QueryRay::FAR, |ends| f32::from_ne_bytes(ends[row]));
+        let is_sound = origin.is_finite() && !end.is_nan();
         QueryRay {
             t_max: end.min(QueryRay::FAR),
-            ..QueryRay::new(origins[row], unit.as_vec3())
+            ..QueryRay::new(origin, if is_sound { direction } else { Vec3::ZERO })
         }
-    });
-    let is_bad = |ray: &QueryRay| ray.direction == Vec3::ZERO || !ray.origin.is_finite();
-    let has_nan = |ends: &Vec<f32>| ends.iter().position(|end| end.is_nan());
-    let bad = (rays.iter().position(is_bad)).or_else(|| ends.as_ref().and_then(has_nan));
-    match bad {
-        None => Ok(rays),
-        Some(row) => Err(PyValueError::new_err(format!(
-            "bad ray (row {row}): its origin or its length is not finite, or its direction is zero or not finite"
-        ))),
+    }
+
+    /// Calls `trace` with one chunk of rays after the other.
+    fn for_chunks(
+        &self,
+        mut trace: impl FnMut(&[QueryRay]) -> Result<(), RenderError>,
+    ) -> Result<(), Failure> {
+        let mut rays = vec![QueryRay::new(DVec3::ZERO, Vec3::ZERO); CHUNK.min(self.count())];
+        for first in (0..self.count()).step_by(CHUNK) {
+            let rays = &mut rays[..CHUNK.min(self.count() - first)];
+            threads::fill(rays, |index| self.ray(first + index));
+            if let Some(bad) = rays.iter().position(|ray| ray.direction == Vec3::ZERO) {
+                return Err(Failure::Python(PyValueError::new_err(format!(
+                    "bad ray (row {}): its origin or its length is not finite, or its direction is zero or not finite",
+                    first + bad
+                ))));
+            }
+            trace(rays).map_err(|error| Failure::App(error.into()))?;
+        }
+        Ok(())
     }
 }
