@@ -54,6 +54,18 @@ render() { # ROOT PROGRAM: the picture is that of the repository, but for roundi
 		{ cat "$1.compare.txt" >&2 && return 1; }
 }
 
+thumbnail() { # ROOT: the command that file managers call makes a small picture
+	local command
+	cp assets/scenes/lighthouse.{obj,mtl} "$1/root"
+	command=$(sed -n 's/^Exec=//p' "$1/usr/share/thumbnailers/glimray.thumbnailer")
+	command=${command//%s/128} command=${command//%o//root/thumbnail} command=${command//%i//root/lighthouse.obj}
+	# shellcheck disable=SC2086 # A file manager splits it too.
+	inside "$1" $command
+	inside "$1" glimray compare /root/thumbnail /root/thumbnail | grep -q '^size *128×128 ' ||
+		{ say "$(basename "$1"): the thumbnail has another size" >&2 && return 1; }
+	say "$(basename "$1"): a thumbnail is made"
+}
+
 window() { # ROOT: its window opens
 	local display=:$((90 + $$ % 400)) server view found=
 	if ! { command -v Xvfb && command -v xdotool; } >/dev/null; then
@@ -101,6 +113,7 @@ for release; do
 	cp "$deb" "$root/root/glimray.deb"
 	install "$root" /root/glimray.deb
 	render "$root" glimray
+	thumbnail "$root"
 	window "$root"
 	inside "$root" dpkg --verify glimray
 	inside "$root" apt-get --quiet --quiet --yes purge glimray >/dev/null
