@@ -6,8 +6,14 @@
 use crate::error::AppError;
 use glimray_io::import::Resolver;
 use glimray_render::gpu::{AdapterChoice, Gpu};
+use glimray_render::pack::PackedScene;
+use glimray_scene::Scene;
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
+
+/// A scene and what it was packed to.
+pub type Packed = Arc<(Scene, Arc<PackedScene>)>;
 
 /// Answers what a command asks of its surroundings.
 pub trait Host {
@@ -28,6 +34,12 @@ pub trait Host {
 
     /// The files of the scene, if they are not on a disk.
     fn files(&self) -> Option<&dyn Resolver>;
+
+    /// The scene that was packed last, whose BVHs and pictures a scene with equal parts uses again.
+    fn packed(&self) -> Option<Packed>;
+
+    /// Takes a scene that was packed.
+    fn keep_packed(&self, packed: Packed);
 
     /// The device on this adapter, which later commands may use again.
     ///

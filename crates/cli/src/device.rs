@@ -98,17 +98,22 @@ pub fn renderer(
     settings: RenderSettings,
     policy: ExecutionPolicy,
 ) -> Result<Renderer, AppError> {
-    let (packed, view) = packed(scene, shutter)?;
+    let (packed, view) = packed(scene, None, shutter)?;
     let policy = storage::with_requested(policy)?;
     Ok(Renderer::new(gpu, packed, &view, settings, policy)?)
 }
 
-/// `scene` while the shutter is open, from `shutter.0` to `shutter.1` in seconds.
+/// `scene` while the shutter is open, from `shutter.0` to `shutter.1` in seconds. Meshes and pictures that are those of
+/// `previous` are packed already.
 pub fn packed(
     scene: &Scene,
+    previous: Option<&PackedScene>,
     shutter: (f64, f64),
 ) -> Result<(Arc<PackedScene>, PackedView), AppError> {
-    let packed = Arc::new(pack::scene(scene)?);
+    let packed = Arc::new(match previous {
+        Some(previous) => pack::scene_from(previous, scene)?,
+        None => pack::scene(scene)?,
+    });
     let view = packed.view(&scene.motion_samples(shutter.0, shutter.1))?;
     Ok((packed, view))
 }

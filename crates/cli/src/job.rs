@@ -28,6 +28,7 @@ use glimray_render::{
 };
 use glimray_scene::bytes::size;
 use glimray_scene::{Backdrop, LightTransport, Scene};
+use std::borrow::Cow;
 use std::panic::resume_unwind;
 use std::path::Path;
 use std::sync::Arc;
@@ -227,9 +228,16 @@ impl Job<'_> {
         draft: &mut Draft,
     ) -> Result<(Gpu, (Arc<PackedScene>, PackedView)), AppError> {
         let started = Instant::now();
+        let host = host::current();
+        let previous = host.as_ref().and_then(|host| host.packed());
+        let mut scene = Cow::Borrowed(&self.scene);
+        if let Some(previous) = &previous {
+            scene.to_mut().share(&previous.0);
+        }
         let (gpu, packed) = thread::scope(|scope| {
             let packing = scope.spawn(|| {
-                let packed = device::packed(&self.scene, shutter)?;
+                let previous = previous.as_ref().map(|previous| &*previous.1);
+                let packed = device::packed(&scene, previous, shutter)?;
                 let module = match memory::is_limited() {
                     true => None,
                     false => render::early_module(&packed.0, &packed.1, settings, policy),
@@ -246,6 +254,9 @@ impl Job<'_> {
         })?;
         draft.seconds.bvh = packed.0.build_seconds;
         draft.seconds.gpu = (started.elapsed().as_secs_f64() - draft.seconds.bvh).max(0.0);
+        if let Some(host) = host {
+            host.keep_packed(Arc::new((scene.into_owned(), packed.0.clone())));
+        }
         Ok((gpu, packed))
     }
 

@@ -1,6 +1,8 @@
-//! Open devices. Renderers share them, and with them all compiled kernels: a second picture of a scene compiles nothing.
+//! Open devices, and the scene that was packed last. Renderers share them, and with them all compiled kernels and the BVHs of
+//! equal meshes: a second picture of a scene compiles and builds nothing.
 
 use crate::errors::Failure;
+use glimray_app::host::Packed;
 use glimray_render::gpu::{AdapterChoice, Gpu};
 use pyo3::prelude::*;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -9,11 +11,16 @@ struct Devices {
     /// The process that opened them.
     process: u32,
     open: Vec<(AdapterChoice, Gpu)>,
+    packed: Option<Packed>,
 }
+
+/// Bytes of a packed scene beyond which it is not kept.
+const MOST_KEPT: usize = 1 << 30;
 
 static DEVICES: Mutex<Devices> = Mutex::new(Devices {
     process: 0,
     open: Vec::new(),
+    packed: None,
 });
 
 fn devices() -> MutexGuard<'static, Devices> {
@@ -49,6 +56,17 @@ pub fn keep(choice: &AdapterChoice, gpu: &Gpu) {
     }
 }
 
+/// The scene that was packed last, unless it was very large.
+pub fn packed() -> Option<Packed> {
+    devices().packed.clone()
+}
+
+/// Keeps a packed scene.
+pub fn keep_packed(packed: Packed) {
+    let bytes: usize = packed.1.parts().iter().map(|part| part.len()).sum();
+    devices().packed = Some(packed).filter(|_| bytes <= MOST_KEPT);
+}
+
 /// Whether a device is open.
 #[pyfunction]
 pub fn is_open() -> bool {
@@ -59,6 +77,7 @@ pub fn is_open() -> bool {
 #[pyfunction]
 pub fn close() {
     let mut devices = devices();
+    devices.packed = None;
     let open = std::mem::take(&mut devices.open);
     if devices.process != std::process::id() {
         std::mem::forget(open);

@@ -4,7 +4,7 @@
 use crate::errors::Failure;
 use crate::{Files, Progress, Ran, devices};
 use glimray_app::error::AppError;
-use glimray_app::host::Host;
+use glimray_app::host::{Host, Packed};
 use glimray_io::import::{Memory, Resolver};
 use glimray_render::gpu::{AdapterChoice, Gpu};
 use pyo3::prelude::*;
@@ -115,6 +115,14 @@ impl Host for PythonHost {
     fn files(&self) -> Option<&dyn Resolver> {
         let files = self.session.files.as_ref();
         files.map(|files| files as &dyn Resolver)
+    }
+
+    fn packed(&self) -> Option<Packed> {
+        devices::packed()
+    }
+
+    fn keep_packed(&self, packed: Packed) {
+        devices::keep_packed(packed);
     }
 
     fn gpu(&self, choice: &AdapterChoice) -> Result<Gpu, AppError> {

@@ -149,6 +149,17 @@ def test_the_second_picture_of_a_scene_compiles_nothing():
     assert again.report["image"]["width"] == 16
 
 
+def test_the_trees_of_equal_meshes_are_built_once():
+    model = ROOT / "assets/scenes/lighthouse.obj"
+    look = {"size": (64, 48), "samples": 1}
+    first = gl.render(model, **look)
+    again = gl.render(model, look_from=(3, 2, 5), look_at=(0, 1, 0), **look)
+    assert again.report["seconds"]["bvh"] < 0.2 * first.report["seconds"]["bvh"]
+    gl.render(SPHERES, **look)
+    alone = gl.render(model, look_from=(3, 2, 5), look_at=(0, 1, 0), **look)
+    assert (again.numpy() == alone.numpy()).all()
+
+
 def test_progress_grows_to_one():
     seen = []
     gl.render(SPHERES, size=(64, 64), samples=16, progress=seen.append)

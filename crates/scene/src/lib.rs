@@ -346,6 +346,19 @@ impl Scene {
         self.render_origin.unwrap_or(rest.camera.look_from)
     }
 
+    /// Makes meshes and pictures that are equal to those of the same number in `other` the same objects.
+    pub fn share(&mut self, other: &Self) {
+        fn share<T: PartialEq>(own: &mut [Arc<T>], others: &[Arc<T>]) {
+            for (own, other) in own.iter_mut().zip(others) {
+                if own == other {
+                    *own = other.clone();
+                }
+            }
+        }
+        share(&mut self.meshes, &other.meshes);
+        share(&mut self.pictures, &other.pictures);
+    }
+
     /// The node that moves an instance, if any.
     pub fn node_of(&self, instance: &Instance) -> Option<usize> {
         let deformation = self.deformation_of(instance.mesh);
