@@ -126,7 +126,7 @@ fn parsed(arguments: &[OsString]) -> Result<(Command, ArgMatches), AppError> {
     parsed.map_err(|error| AppError::Usage(exit::one_line(&error.to_string())))
 }
 
-/// Runs a command. It prints to the host.
+/// Runs a command, which prints to the host.
 ///
 /// # Errors
 /// Those of the command.

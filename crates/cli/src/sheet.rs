@@ -5,7 +5,7 @@ mod canvas;
 mod page;
 mod shot;
 
-use crate::args::{LayerFlags, PictureFlags, SettingFlags, SheetArgs, View};
+use crate::args::{LayerFlags, PictureFlags, SettingFlags, SheetArgs, VIEWS, View};
 use crate::destination::Destination;
 use crate::device::{self, Opening};
 use crate::idle_flags;
@@ -68,6 +68,12 @@ fn render(
         [] => &View::ALL,
         chosen => chosen,
     };
+    if let Some(view) = (1..views.len()).find(|&index| views[..index].contains(&views[index])) {
+        return Err(AppError::Usage(format!(
+            "cannot show a view twice (--views {}). Leave it out.",
+            VIEWS.name(&views[view])
+        )));
+    }
     set_scene(arguments, &picture, &mut scene);
     let shots = Shots::new(&mut scene, views, side)?;
     let job = Job {
@@ -82,8 +88,7 @@ fn render(
     job.warn_of_skipped()?;
     let settings = job.settings();
     job.check_format(&settings, destination.path(), false, true)?;
-    let mut page = Page::new(side, &shots);
-    let size = page.size();
+    let size = page::size(side, views.len());
     draft.set_image(job.image(destination.path(), &settings, size));
     draft
         .inputs
@@ -91,6 +96,7 @@ fn render(
     destination.check(size.0, size.1)?;
     job.check_report(draft)?;
     job.check_memory(size, draft)?;
+    let mut page = Page::new(side, &shots);
     let policy = ExecutionPolicy {
         picture_count: views.len() as u32,
         ..job.policy()
@@ -124,6 +130,7 @@ fn render(
         page.place(index, shot, &picture.image);
     }
     drop(progress);
+    interrupt.check()?;
     if black == views.len() {
         job.warn_of_darkness(&tone, &settings);
     }
@@ -193,8 +200,11 @@ fn set_scene(arguments: &SheetArgs, picture: &PictureFlags, scene: &mut Scene) {
     }
     let color = shown.background.unwrap_or(BACKDROP);
     match picture.overrides().settings(&scene.output).integrator {
-        // What lights the scene, and shows in mirrors, stays.
+        // The light of the background, which mirrors show, stays.
         Integrator::Path => scene.output.backdrop = Backdrop::Color(color),
-        _ => scene.background = Background::Color(color),
+        _ => {
+            scene.output.backdrop = Backdrop::Background;
+            scene.background = Background::Color(color);
+        }
     }
 }

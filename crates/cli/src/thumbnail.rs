@@ -17,7 +17,7 @@ use glimray_scene::{Antialias, LightTransport, Scene};
 use std::path::Path;
 use std::time::Instant;
 
-/// Samples per pixel. Those of paths are denoised.
+/// Samples per pixel. Pictures by paths are denoised.
 const SAMPLES: u32 = 4;
 
 pub fn run(arguments: &ThumbnailArgs, started: Instant) -> Result<(), AppError> {

@@ -135,7 +135,7 @@ pub struct CameraFlags {
     pub section: Option<SectionChoice>,
 }
 
-/// What is shown of a scene, and before what, for commands that place their cameras by themselves.
+/// The background and the section of a scene, for commands that place their cameras by themselves.
 #[derive(Debug, Default, Args)]
 pub struct ShownFlags {
     /// Background colour: linear radiance, 0 or more per channel

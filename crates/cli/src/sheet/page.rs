@@ -37,14 +37,24 @@ pub struct Page {
     columns: usize,
 }
 
+/// Columns, and width and height in pixels, of a page for `count` views of `side` pixels square.
+fn layout(side: u32, count: usize) -> (usize, (u32, u32)) {
+    let columns = count.div_ceil(count.div_ceil(COLUMNS));
+    let rows = count.div_ceil(columns) as u32;
+    let width = columns as u32 * (side + GAP) + GAP;
+    let height = 2 * (GAP + LINE) + rows * (LINE + side + GAP) + GAP;
+    (columns, (width, height))
+}
+
+/// Width and height in pixels of a page for `count` views of `side` pixels square.
+pub fn size(side: u32, count: usize) -> (u32, u32) {
+    layout(side, count).1
+}
+
 impl Page {
     /// An empty page for these views, of `side` pixels square.
     pub fn new(side: u32, shots: &Shots) -> Self {
-        let count = shots.list.len();
-        let columns = count.div_ceil(count.div_ceil(COLUMNS));
-        let rows = count.div_ceil(columns) as u32;
-        let width = columns as u32 * (side + GAP) + GAP;
-        let height = 2 * (GAP + LINE) + rows * (LINE + side + GAP) + GAP;
+        let (columns, (width, height)) = layout(side, shots.list.len());
         let mut image = Image::new(width, height);
         canvas::fill(&mut image, [0, 0], [width, height], PAPER);
         Self {
@@ -52,11 +62,6 @@ impl Page {
             side,
             columns,
         }
-    }
-
-    /// Width and height in pixels.
-    pub fn size(&self) -> (u32, u32) {
-        (self.image.width, self.image.height)
     }
 
     /// The upper left pixel of a view.

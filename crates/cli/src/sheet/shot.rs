@@ -15,7 +15,7 @@ const FOV_Y: f64 = 32.0 * std::f64::consts::PI / 180.0;
 /// The longest that the scale bar may be, as a fraction of a view.
 const LONGEST_BAR: f64 = 0.6;
 
-/// What a view shows.
+/// A view with its camera.
 pub struct Shot {
     pub view: View,
     pub frame: Frame,
