@@ -1,7 +1,7 @@
 //! Another program in whose process a command runs, such as a Python interpreter. A command of `glimray` itself has none:
 //! it talks to a terminal, reads files from disks, opens its own device and ends at a signal.
 //!
-//! A host belongs to the thread that runs the command. Threads that the command starts report through it.
+//! A host belongs to the thread that runs the command. Threads that the command starts have none.
 
 use crate::error::AppError;
 use glimray_io::import::Resolver;

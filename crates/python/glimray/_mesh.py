@@ -14,7 +14,7 @@ Rows = Any
 
 @functools.cache
 def _numpy() -> Any:
-    """NumPy where it is installed. It is imported when it is needed: that takes longer than a small picture."""
+    """NumPy where it is installed, imported when it is needed: that takes longer than a small picture."""
     try:
         import numpy
     except ImportError:
@@ -30,7 +30,7 @@ class Mesh:
         faces: Indices of corners, (M, 3) or (M, K) with K corners each; counter-clockwise from the front.
             ``None`` takes each three vertices as a triangle.
         normals: Shading normals, (N, 3). Without them they are computed; edges sharper than 60 degrees stay sharp.
-        colors: Colours of vertices, (N, 3) or (N, 4). Unsigned bytes are sRGB, 0 to 255; floats are linear, 0 to 1.
+        colors: Colours of vertices, (N, 3) or (N, 4). Whole numbers are bytes of sRGB, 0 to 255; floats are linear, 0 to 1.
         uvs: Texture coordinates, (N, 2); (0, 0) is the lower left of a picture.
 
     Raises:
@@ -79,7 +79,7 @@ class Mesh:
         if hasattr(source, "to_legacy"):
             # A mesh of Open3D's tensors.
             source = source.to_legacy()
-        if hasattr(source, "extract_surface") or hasattr(source, "regular_faces"):
+        if hasattr(source, "extract_surface") or hasattr(type(source), "regular_faces"):
             return cls._of_pyvista(source)
         vertices = _first(source, "vertices", "points")
         faces = _first(source, "faces", "triangles", "cells")
@@ -124,7 +124,7 @@ class Mesh:
     @classmethod
     def _of_pyvista(cls, source: Any) -> Mesh:
         np = _numpy()
-        if not hasattr(source, "regular_faces"):
+        if not hasattr(type(source), "regular_faces"):
             source = _surface(source)
         if not source.is_all_triangles:
             source = source.triangulate()
@@ -137,6 +137,29 @@ class Mesh:
         if colors is not None and colors.ndim == 2 and colors.shape[1] in (3, 4) and colors.dtype == np.uint8:
             optional["colors"] = colors
         return cls(source.points, source.regular_faces, **optional)
+
+    def numbers(self, corners: bytes) -> Any:
+        """The faces of the triangles with these corners, nine floats each: in their order, some left out.
+
+        Returns:
+            An array of (M,) int32; ``None`` if none is left out, or faces are no triangles.
+        """
+        np = _numpy()
+        kept = np.frombuffer(corners, np.float32).reshape(-1, 9)
+        size = 1 + 4 * 3
+        if len(kept) == self._face_count or len(self._faces) != size * self._face_count:
+            return None
+        rows = np.frombuffer(self._faces, [("count", "u1"), ("corners", "<u4", (3,))])
+        width = len(self._names)
+        positions = np.frombuffer(self._vertices, "<f4").reshape(-1, width)[:, :3]
+        given = positions[rows["corners"]].reshape(-1, 9)
+        numbers, face = np.empty(len(kept), np.int32), 0
+        for number, triangle in enumerate(kept):
+            while (given[face] != triangle).any():
+                face += 1
+            numbers[number] = face
+            face += 1
+        return numbers
 
     def ply(self) -> bytes:
         """The mesh as a binary PLY file."""
@@ -177,20 +200,40 @@ def _floats(name: str, rows: Rows, widths: tuple[int, ...]) -> Rows:
 
 
 def _linear(colors: Rows) -> Rows:
-    """Linear colours: bytes are sRGB."""
+    """Linear colours: whole numbers are bytes of sRGB."""
     np = _numpy()
-    if colors is None or np is None:
-        return colors
+    if colors is None:
+        return None
+    if np is None:
+        rows = [tuple(row) for row in colors]
+        is_bytes = all(isinstance(value, int) for row in rows for value in row)
+        _check_colors(min(map(min, rows), default=0), max(map(max, rows), default=0), is_bytes)
+        shown = [tuple(value / 255 for value in row) for row in rows] if is_bytes else rows
+        return [tuple(map(_from_srgb, row[:3])) + row[3:] for row in shown] if is_bytes else rows
     colors = np.asarray(colors)
-    if colors.dtype.kind not in "ui":
+    is_bytes = colors.dtype.kind in "ui"
+    if colors.dtype.kind not in "uif":
         return colors
-    if colors.dtype != np.uint8 and (colors.min(initial=0) < 0 or colors.max(initial=0) > 255):
-        raise SceneError("bad mesh (colors): whole numbers beyond 0 to 255. Give bytes, or floats of 0 to 1.")
+    _check_colors(colors.min(initial=0), colors.max(initial=0), is_bytes)
+    if not is_bytes:
+        return colors
     shown = colors.astype(np.float64) / 255
     linear = np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
     if colors.ndim == 2 and colors.shape[1] == 4:
         linear[:, 3] = shown[:, 3]
     return linear
+
+
+def _from_srgb(value: float) -> float:
+    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+
+def _check_colors(least: float, most: float, is_bytes: bool) -> None:
+    if is_bytes and most == 1:
+        raise SceneError("bad mesh (colors): whole numbers of 0 and 1 are nearly black bytes. Give floats for linear colours.")
+    limit = 255 if is_bytes else 1
+    if least < 0 or most > limit:
+        raise SceneError(f"bad mesh (colors): {least} to {most}. Give whole numbers of 0 to 255, or floats of 0 to 1.")
 
 
 def _opaque(rows: Rows) -> Rows:
@@ -206,9 +249,12 @@ def _opaque(rows: Rows) -> Rows:
 def _interleaved(columns: Sequence[Rows]) -> bytes:
     np = _numpy()
     if np is not None:
-        return np.hstack(columns).astype("<f4").tobytes()
+        return bytes(np.hstack(columns).astype("<f4").tobytes())
     rows = (sum(parts, ()) for parts in zip(*columns))
     return b"".join(struct.pack(f"<{len(row)}f", *row) for row in rows)
+
+
+_NO_FACES = "bad mesh (faces): they are no rows of at least three indices, as many in each. Give an array of (M, 3) integers."
 
 
 def _faces(faces: Rows, count: int) -> tuple[bytes, int]:
@@ -219,13 +265,18 @@ def _faces(faces: Rows, count: int) -> tuple[bytes, int]:
         faces = [(i, i + 1, i + 2) for i in range(0, count, 3)] if np is None else np.arange(count).reshape(-1, 3)
     if np is None:
         faces = [tuple(face) for face in faces]
+        if any(len(face) < 3 or not all(isinstance(corner, int) for corner in face) for face in faces):
+            raise SceneError(_NO_FACES)
         _check_indices(min((min(face) for face in faces), default=0), max((max(face) for face in faces), default=0), count)
         return b"".join(struct.pack(f"<B{len(face)}I", len(face), *face) for face in faces), len(faces)
-    faces = np.asarray(faces)
+    try:
+        faces = np.asarray(faces)
+    except ValueError:
+        raise SceneError(_NO_FACES) from None
     if faces.size == 0:
         return b"", 0
     if faces.ndim != 2 or not 3 <= faces.shape[1] <= 255 or faces.dtype.kind not in "ui":
-        raise SceneError("bad mesh (faces): they are no rows of at least three indices. Give an array of (M, 3) integers.")
+        raise SceneError(_NO_FACES)
     _check_indices(int(faces.min()), int(faces.max()), count)
     corners = faces.shape[1]
     rows = np.empty(len(faces), dtype=[("count", "u1"), ("corners", "<u4", (corners,))])

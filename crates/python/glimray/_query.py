@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._errors import SceneError
-from ._scene import as_source
+from ._errors import GlimrayWarning, SceneError
+from ._scene import as_mesh, as_source
 from ._session import arguments, call
 
 if TYPE_CHECKING:
@@ -29,7 +30,8 @@ class Hits:
     objects: Any
     """Numbers of objects, from 0: (N,), int32. ``RayQuery.names`` has their names."""
     triangles: Any
-    """Numbers of triangles in the mesh of the object: (N,), int32; -1 for shapes such as spheres."""
+    """Numbers of triangles: (N,), int32; -1 for shapes such as spheres. Those of a mesh of triangles that was given are its
+    faces; others count the triangles of the object, and leave out those without area."""
     normals: Any
     """Unit normals in world space, of the front of a triangle or the outside of a shape: (N, 3), float32."""
 
@@ -66,15 +68,21 @@ class RayQuery:
         /,
         *,
         time: float = 0.0,
-        adapter: str | None = None,
+        adapter: int | str | None = None,
         **settings: Unpack[InspectKeywords],
     ) -> None:
-        name, files = as_source(scene)
-        if not name.endswith((".toml", ".scene", ".nff")):
+        mesh = as_mesh(scene)
+        name, files = as_source(scene if mesh is None else mesh)
+        if not name.lower().endswith((".toml", ".scene", ".nff")):
             settings.setdefault("bare", True)
         words = arguments("inspect", name, settings, "RayQuery")
-        self._native = call(_native.RayQuery, words, files, float(time), adapter)
+        self._native = call(_native.RayQuery, words, files, float(time), None if adapter is None else str(adapter))
         self.names: list[str] = self._native.names()
+        self._numbers: Any = None
+        for text in self._native.skipped():
+            warnings.warn(text, GlimrayWarning, stacklevel=2)
+        if mesh is not None:
+            self._numbers = mesh.numbers(self._native.corners())
 
     def closest(self, origins: Any, directions: Any, t_max: Any = None, *, coherent: bool = False) -> Hits:
         """The closest hit of each ray.
@@ -93,7 +101,10 @@ class RayQuery:
 
         rows = _rows(origins, directions, t_max)
         found = np.frombuffer(self._call(self._native.closest, rows, coherent), _ROW)
-        return Hits(found["distance"], found["object"], found["triangle"], found["normal"])
+        triangles = found["triangle"]
+        if self._numbers is not None:
+            triangles = np.where(triangles >= 0, self._numbers[triangles], -1)
+        return Hits(found["distance"], found["object"], triangles, found["normal"])
 
     def occluded(self, origins: Any, directions: Any, t_max: Any = None, *, coherent: bool = False) -> Any:
         """Whether something is in the way of each ray: (N,), bool. Arguments and errors as for ``closest``."""
@@ -115,13 +126,14 @@ class RayQuery:
 def _rows(origins: Any, directions: Any, t_max: Any) -> tuple[bytes, bytes, bytes | None]:
     import numpy as np
 
-    origins, directions = np.asarray(origins, np.float64), np.asarray(directions, np.float64)
+    try:
+        origins, directions = np.asarray(origins, np.float64), np.asarray(directions, np.float64)
+        ends = None if t_max is None else np.broadcast_to(np.asarray(t_max, np.float32), origins.shape[:1]).tobytes()
+    except (TypeError, ValueError) as error:
+        raise SceneError(f"bad rays: {error}. Give origins and directions of (N, 3), and t_max of (N,).") from None
     for name, rows in (("origins", origins), ("directions", directions)):
         if rows.ndim != 2 or rows.shape[1] != 3:
             raise SceneError(f"bad rays ({name}): an array of {rows.shape}. Give (N, 3).")
     if len(origins) != len(directions):
         raise SceneError(f"bad rays: {len(origins)} origins for {len(directions)} directions. Give one for each.")
-    ends = None
-    if t_max is not None:
-        ends = np.broadcast_to(np.asarray(t_max, np.float32), (len(origins),)).tobytes()
     return origins.tobytes(), directions.tobytes(), ends

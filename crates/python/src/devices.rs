@@ -69,13 +69,18 @@ pub fn keep_packed(packed: Packed) {
 
 /// Whether a device is open.
 #[pyfunction]
-pub fn is_open() -> bool {
-    !devices().open.is_empty()
+pub fn is_open(py: Python) -> bool {
+    // Another thread may be opening one.
+    py.detach(|| !devices().open.is_empty())
 }
 
 /// Closes all devices: a driver must not be at work when the process ends. After a fork there is nothing to close.
 #[pyfunction]
-pub fn close() {
+pub fn close(py: Python) {
+    py.detach(close_all);
+}
+
+fn close_all() {
     let mut devices = devices();
     devices.packed = None;
     let open = std::mem::take(&mut devices.open);

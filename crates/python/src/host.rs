@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 /// Time between two looks for signals: the interpreter may be busy with another thread for some milliseconds.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// What a call of a command needs.
+/// The files and the progress function of a call.
 #[derive(Default)]
 pub struct Session {
     files: Option<Memory>,
@@ -44,10 +44,10 @@ impl Session {
             });
             let done = command(host.clone());
             let failure = host.failure.take();
-            match (done, failure) {
-                (Ok(value), _) => Ok((value, host.said.take().into())),
-                (Err(_), Some(failure)) => Err(failure),
-                (Err(error), None) => Err(Failure::App(error)),
+            match (failure, done) {
+                (Some(failure), _) => Err(failure),
+                (None, Ok(value)) => Ok((value, host.said.take().into())),
+                (None, Err(error)) => Err(Failure::App(error)),
             }
         });
         outcome.map_err(|failure| failure.raised(py))

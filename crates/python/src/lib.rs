@@ -41,14 +41,14 @@ type Files = Option<BTreeMap<String, Vec<u8>>>;
 /// A function that takes the finished fraction of the work.
 type Progress = Option<Py<PyAny>>;
 
-/// What a command said.
+/// The output of a command.
 #[pyclass(frozen, get_all)]
 struct Ran {
-    /// What it printed.
+    /// Bytes for standard output.
     printed: Vec<u8>,
-    /// Its report as JSON, or nothing.
+    /// The report as JSON, or nothing.
     report: String,
-    /// Its warnings.
+    /// Warnings, a text each.
     warnings: Vec<String>,
 }
 
@@ -128,7 +128,7 @@ fn encode<'py>(
         format: Format::from_path(format!("a.{ending}").as_ref()),
         ..SaveOptions::default()
     };
-    let bytes = output::encoded(&image, &options);
+    let bytes = py.detach(|| output::encoded(&image, &options));
     let bytes = bytes.map_err(|error| Failure::App(error.into()).raised(py))?;
     Ok(PyBytes::new(py, &bytes))
 }

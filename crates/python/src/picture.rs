@@ -29,7 +29,7 @@ pub fn render(
     let session = Session::new(files, progress);
     let render = move |host| embedded::render(host, &words(arguments));
     let ((picture, gpu), said) = session.run(py, render)?;
-    devices::keep(&picture.adapter(), &gpu);
+    py.detach(|| devices::keep(&picture.adapter(), &gpu));
     Ok((Picture(picture), said))
 }
 

@@ -28,10 +28,12 @@ const UNKNOWN: u32 = u32::MAX;
 #[pyclass(frozen)]
 pub struct RayQuery {
     query: glimray_render::RayQuery,
+    /// The process that has the device.
+    process: u32,
     packed: Arc<PackedScene>,
     scene: Scene,
     frame: Frame,
-    /// For each mesh its triangles by their corners, in ascending order.
+    /// For each mesh its triangles by their corners, from the least one on.
     triangles: OnceLock<Vec<HashMap<[u32; 3], u32>>>,
     /// The number of each packed triangle in its mesh; [`UNKNOWN`] until it is first hit.
     numbers: Vec<AtomicU32>,
@@ -54,6 +56,21 @@ impl RayQuery {
         made.map_err(|failure| failure.raised(py))
     }
 
+    /// What was left out of the scene, as sentences.
+    fn skipped(&self) -> Vec<String> {
+        self.scene.skipped.clone()
+    }
+
+    /// The corners of the triangles of the first mesh in its own space, nine floats each; nothing without a mesh.
+    fn corners<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        let mesh = self.scene.meshes.first();
+        let corners = mesh.into_iter().flat_map(|mesh| {
+            let triangles = mesh.triangles.iter().flatten();
+            triangles.map(|corner| mesh.positions[*corner as usize].to_array())
+        });
+        PyBytes::new(py, bytemuck::cast_slice(&corners.collect::<Vec<_>>()))
+    }
+
     /// Closest hits: a [`Row`] for each ray.
     fn closest<'py>(
         &self,
@@ -66,6 +83,7 @@ impl RayQuery {
         let given = Given::new(origins, directions, t_max)?;
         let mut rows = vec![Row::MISS; given.count()];
         py.detach(|| {
+            self.check_process()?;
             let places = self.places();
             let mut chunks = rows.chunks_mut(CHUNK);
             given.for_chunks(|rays| {
@@ -95,6 +113,7 @@ impl RayQuery {
         let given = Given::new(origins, directions, t_max)?;
         let mut found = Vec::with_capacity(given.count());
         py.detach(|| {
+            self.check_process()?;
             given.for_chunks(|rays| {
                 let occluded = self.query.occluded_of(&self.batch(rays, is_coherent)?)?;
                 found.extend(occluded.into_iter().map(u8::from));
@@ -142,10 +161,15 @@ impl Row {
 
 impl RayQuery {
     fn of(scene: Scene, time: f64, adapter: Option<String>) -> Result<Self, Failure> {
-        let scene = match scene.deformations.is_empty() {
+        let mut scene = match scene.deformations.is_empty() {
             true => scene,
             false => scene.at_rest(time),
         };
+        // Rays ask for surfaces of the scene, not for lamps that are seen.
+        scene
+            .lights
+            .iter_mut()
+            .for_each(|light| light.visible = false);
         let refused = |error: pack::PackError| Failure::App(error.into());
         let packed = Arc::new(pack::scene(&scene).map_err(refused)?);
         let frame = scene.frame(time);
@@ -159,6 +183,7 @@ impl RayQuery {
         let query = glimray_render::RayQuery::new(gpu, packed.clone(), &view, policy);
         Ok(Self {
             query: query.map_err(|error| Failure::App(error.into()))?,
+            process: std::process::id(),
             numbers: (0..packed.triangles.len())
                 .map(|_| AtomicU32::new(UNKNOWN))
                 .collect(),
@@ -167,6 +192,14 @@ impl RayQuery {
             frame,
             triangles: OnceLock::new(),
         })
+    }
+
+    /// A device does not survive a fork.
+    fn check_process(&self) -> Result<(), Failure> {
+        match self.process == std::process::id() {
+            true => Ok(()),
+            false => Err(Failure::Forked),
+        }
     }
 
     fn batch(&self, rays: &[QueryRay], is_coherent: bool) -> Result<RayBatch, RenderError> {
@@ -229,7 +262,7 @@ impl RayQuery {
             UNKNOWN => {
                 let corners = self.packed.corners_at(hit.primitive, hit.instance)?;
                 let mesh = self.scene.instances[index].mesh;
-                let number = *self.triangles()[mesh].get(&sorted(corners))?;
+                let number = *self.triangles()[mesh].get(&turned(corners))?;
                 kept.store(number, Ordering::Relaxed);
                 number
             }
@@ -252,7 +285,7 @@ impl RayQuery {
             let of_mesh = |mesh: &Arc<glimray_scene::Mesh>| {
                 let triangles = mesh.triangles.iter().enumerate();
                 triangles
-                    .map(|(index, corners)| (sorted(*corners), index as u32))
+                    .map(|(index, corners)| (turned(*corners), index as u32))
                     .collect()
             };
             meshes.map(of_mesh).collect()
@@ -260,8 +293,10 @@ impl RayQuery {
     }
 }
 
-fn sorted(mut corners: [u32; 3]) -> [u32; 3] {
-    corners.sort_unstable();
+/// The corners in their order, from the least one on.
+fn turned(mut corners: [u32; 3]) -> [u32; 3] {
+    let least = (0..3).min_by_key(|&corner| corners[corner]);
+    corners.rotate_left(least.unwrap_or(0));
     corners
 }
 
@@ -317,11 +352,12 @@ impl<'a> Given<'a> {
             threads::fill(rays, |index| self.ray(first + index));
             if let Some(bad) = rays.iter().position(|ray| ray.direction == Vec3::ZERO) {
                 return Err(Failure::Python(PyValueError::new_err(format!(
-                    "bad ray (row {}): its origin or its length is not finite, or its direction is zero or not finite",
+                    "bad ray (row {}): its origin is not finite, its t_max is NaN, or its direction is zero or not finite",
                     first + bad
                 ))));
             }
             trace(rays).map_err(|error| Failure::App(error.into()))?;
+            Python::attach(|py| py.check_signals()).map_err(Failure::Python)?;
         }
         Ok(())
     }

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+
 import glimray as gl
 import pytest
 
@@ -56,6 +60,56 @@ def test_triangles_are_numbered_as_in_the_mesh():
     own = hits.triangles == np.arange(count)
     assert hits.distances[own] == pytest.approx(1e-3, rel=0.01)
     assert np.abs(hits.normals[own] - normals[own]).max() < 1e-3
+
+
+def test_faces_without_area_keep_the_numbers_of_the_others():
+    faces = [[0, 0, 1], [0, 1, 2], [1, 1, 1], [0, 2, 3]]
+    with pytest.warns(gl.GlimrayWarning, match="without area"):
+        query = gl.RayQuery(gl.Mesh(SQUARE, faces))
+    hits = query.closest([[0.5, -0.5, 2], [-0.5, 0.5, 2], [5, 5, 2]], [[0, 0, -1]] * 3)
+    assert hits.triangles.tolist() == [1, 3, -1]
+
+
+def test_both_sides_of_a_doubled_triangle_are_told_apart():
+    query = gl.RayQuery(gl.Mesh(SQUARE[:3], [[0, 1, 2], [0, 2, 1]], normals=[[0, 0, 1]] * 3))
+    hits = query.closest([[0.5, -0.5, 2]], [[0, 0, -1]])
+    assert hits.triangles[0] in (0, 1)
+    # The normal is that of the face that is told.
+    assert hits.normals[0] == pytest.approx([0, 0, 1 if hits.triangles[0] == 0 else -1])
+
+
+def test_visible_lamps_are_no_surfaces():
+    scene = gl.Scene()
+    scene.add_mesh(gl.Mesh(SQUARE, HALVES), name="wall")
+    scene.add_light(sphere={"center": [0, 0, 2], "radius": 0.5})
+    query = gl.RayQuery(scene)
+    hits = query.closest([[0.1, 0.2, 5]], [[0, 0, -1]])
+    assert hits.distances[0] == pytest.approx(5)
+    assert query.occluded([[0.1, 0.2, 5]], [[0, 0, -1]], t_max=4).tolist() == [False]
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork")
+def test_a_query_after_fork_is_an_error():
+    code = f"""
+import os, glimray as gl
+query = gl.RayQuery(gl.Mesh({SQUARE}, {HALVES}))
+child = os.fork()
+if child == 0:
+    for call in (query.closest, query.occluded):
+        try:
+            call([[0, 0, 1]], [[0, 0, -1]])
+        except gl.DeviceError:
+            print("refused", flush=True)
+    os._exit(0)
+os.waitpid(child, 0)
+"""
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert ran.stdout.split() == ["refused", "refused"], ran.stderr
+
+
+def test_a_number_names_an_adapter():
+    with pytest.raises(gl.NoAdapter, match="99"):
+        gl.RayQuery(gl.Mesh(SQUARE, HALVES), adapter=99)
 
 
 def test_hits_at_the_limit_or_beyond_do_not_count():
@@ -123,6 +177,8 @@ def test_coherence_changes_no_hit():
         (([[0, 0, 0]], [[0, 0, 1], [0, 0, 1]]), "1 origins for 2"),
         (([[0, 0, 0]], [[0, 0, 0]]), "row 0"),
         (([[0, float("nan"), 0]], [[0, 0, 1]]), "row 0"),
+        (([[0, 0, 0]], [[0, 0, 1]], [1, 2, 3]), "t_max"),
+        (([[0, 0, 0], [0]], [[0, 0, 1]]), "bad rays"),
     ],
 )
 def test_bad_rays_are_refused(rays, said):
