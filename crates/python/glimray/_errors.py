@@ -48,7 +48,7 @@ class TooBig(Error, MemoryError):
 
 
 class GlimrayWarning(UserWarning):
-    """What the program would warn of: skipped parts of a scene, missing light, a black picture."""
+    """A warning of the program: skipped parts of a scene, missing light, a black picture."""
 
 
 _CLASSES = {
@@ -59,7 +59,7 @@ _CLASSES = {
 
 def in_keywords(text: str) -> str:
     """A message of the program with keywords in place of flags: ``max_depth`` for ``--max-depth``."""
-    return re.sub(r"--([a-z][a-z0-9-]*)", lambda flag: flag[1].replace("-", "_"), text)
+    return re.sub(r"(?<![\w/-])--([a-z][a-z0-9-]*)", lambda flag: flag[1].replace("-", "_"), text)
 
 
 def of_exit_code(text: str, code: int) -> Error:

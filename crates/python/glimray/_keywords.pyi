@@ -16,8 +16,6 @@ Pixels: TypeAlias = Any
 class RenderKeywords(TypedDict, total=False):
     """Keywords of `render`."""
 
-    quality: int | None
-    """JPEG quality, 1 (smallest file) to 100 (best)."""
     layers: Iterable[Literal["beauty", "albedo", "normal", "depth", "position", "uv", "object", "material", "direct", "indirect", "emission", "variance", "samples"]] | str | None
     """Layers to write to one OpenEXR file (.exr) or to keep in a film (.film), separated by commas."""
     size: tuple[int, int] | list[int] | str | None

@@ -22,11 +22,17 @@ if TYPE_CHECKING:
 
     from ._keywords import AnimateKeywords, RenderKeywords, SheetKeywords, TurntableKeywords
 
+def _file_name(path: str | os.PathLike[str]) -> str:
+    """A path that is not taken for a flag or standard output."""
+    name = os.fsdecode(os.fspath(path))
+    return f"./{name}" if name.startswith("-") else name
+
+
 F = TypeVar("F", bound="_File")
 
 
 class Picture:
-    """A rendered picture. It shows itself in a notebook.
+    """A rendered picture, which shows itself in a notebook.
 
     Attributes:
         width: In pixels.
@@ -72,6 +78,7 @@ class Picture:
             self._linear = self._native.linear()
         return memoryview(self._linear).cast("B").cast("f", (self.height, self.width, 4))
 
+    # From Python 3.12 on (PEP 688); before that only `buffer` gives a view.
     def __buffer__(self, _flags: int) -> memoryview[Any]:
         return self.buffer()
 
@@ -97,7 +104,9 @@ class Picture:
             OutputError: The file cannot be written.
             UsageError: The name has no ending of a format, or the format does not keep opacity.
         """
-        self._native.save(os.fspath(path), quality, clobber)
+        if not 1 <= quality <= 100:
+            raise UsageError(f"quality is 1 to 100, not {quality}.")
+        self._native.save(_file_name(path), quality, clobber)
 
     def layer(self, name: str) -> Any:
         """A layer as an array of float32, (height, width) or (height, width, channels).
@@ -129,7 +138,8 @@ class Picture:
         known = keywords("explain")
         settings = {name: value for name, value in self._settings.items() if name in known}
         settings |= {"pixel": (x, y), "sample": sample}
-        explained: dict[str, Any] = json.loads(run("explain", self._source, settings, extra=["--json"]).printed)
+        with _without_arrays(settings) as plain:
+            explained: dict[str, Any] = json.loads(run("explain", self._source, plain, extra=["--json"]).printed)
         return explained
 
 
@@ -157,7 +167,7 @@ def render(scene: Any, /, *, progress: Progress = None, **settings: Unpack[Rende
     with given as plain, shown(progress) as report:
         words = arguments("render", source[0], plain)
         picture, said = native(_native.render, words, source[1], report)
-    return Picture(picture, said.report, source, plain)
+    return Picture(picture, said.report, source, settings)
 
 
 class _without_arrays:
@@ -170,10 +180,14 @@ class _without_arrays:
     def __enter__(self) -> dict[str, Any]:
         environment = self._settings.get("environment")
         if hasattr(environment, "shape"):
-            size, pixels, *_ = as_pixels(environment)
-            self._file = tempfile.NamedTemporaryFile(suffix=".exr", delete=False)
-            self._file.write(_native.encode(size, pixels, "exr"))
-            self._file.close()
+            size, pixels, is_linear, _ = as_pixels(environment)
+            if size[0] != 2 * size[1]:
+                raise SceneError(f"bad picture (environment): {size[0]} by {size[1]} pixels. Give one twice as wide as high.")
+            ending = "exr" if is_linear else "png"
+            data = _native.encode(size, pixels, ending)
+            self._file = tempfile.NamedTemporaryFile(suffix=f".{ending}", delete=False)
+            with self._file:
+                self._file.write(data)
             self._settings["environment"] = self._file.name
         return self._settings
 
@@ -192,7 +206,11 @@ class _File:
         self.report: dict[str, Any] = json.loads(report)
 
     def data(self) -> bytes:
-        """The bytes of the file."""
+        """The bytes of the file.
+
+        Raises:
+            OSError: There is no single file, as of an animation in frames.
+        """
         if self._data is not None:
             return self._data
         assert self.path is not None
@@ -269,7 +287,7 @@ def turntable(
 
 
 class Sheet(_File):
-    """Views of a model in one picture. It shows itself in a notebook.
+    """Views of a model in one picture, which shows itself in a notebook.
 
     Attributes:
         path: The file; ``None`` if there is none but in memory.
@@ -317,7 +335,7 @@ def _file(
     with _without_arrays(settings) as settings:
         if output is not None:
             path = Path(output)
-            said = run(command, source, settings, extra=[f"--output={path}"], progress=progress)
+            said = run(command, source, settings, extra=[f"--output={_file_name(path)}"], progress=progress)
             return kind(path, None, path.suffix.lower(), said.report)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / f"file{usual}"
@@ -355,6 +373,8 @@ def compare(a: Any, b: Any, *, tolerance: float = 0.0) -> Comparison:
     Raises:
         SceneError: A file is refused, or the sizes differ.
     """
+    if not tolerance >= 0:
+        raise UsageError(f"tolerance is at least 0, not {tolerance}.")
     first, second = _compared(a), _compared(b)
     if first[0] != second[0]:
         (aw, ah), (bw, bh) = first[0], second[0]

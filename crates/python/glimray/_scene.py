@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._errors import SceneError
+from ._errors import OutputError, SceneError, UsageError
 from ._mesh import Mesh
 from ._session import arguments, native, run
 
@@ -28,7 +28,8 @@ class Scene:
 
     ``document`` is a dict with the tables of the format (``objects``, ``materials``, ``lights``, ``cameras``,
     ``background``, ``output`` and so on), to be read and edited. The manual's reference of native scenes lists all keys.
-    A mistake in it is reported when the scene is rendered, with its place.
+    A mistake in it is reported when the scene is rendered, with its place. Files that the document names are in ``files``,
+    which ``add_mesh``, ``add_texture`` and ``set_background`` fill; none is read from the disk.
 
     >>> scene = Scene()
     >>> scene.add_material("gold", pbr={"base_color": [1.0, 0.77, 0.34], "metallic": 1.0, "roughness": 0.2})
@@ -84,14 +85,20 @@ class Scene:
         """Writes a native file and, beside it, the files that it names.
 
         Raises:
+            OutputError: Another file has the name of one of these.
             OSError: A file cannot be written.
         """
-        path = Path(path)
+        path, text = Path(path), self.to_toml()
+        for name, data in self.files.items():
+            beside = path.parent / name
+            if beside.exists() and beside.read_bytes() != data:
+                raise OutputError(f"cannot write the scene ({beside}): another file has this name. Choose another folder.")
+        path.parent.mkdir(parents=True, exist_ok=True)
         for name, data in self.files.items():
             beside = path.parent / name
             beside.parent.mkdir(parents=True, exist_ok=True)
             beside.write_bytes(data)
-        path.write_text(self.to_toml(), encoding="utf-8")
+        path.write_text(text, encoding="utf-8")
 
     def add_object(self, **table: Any) -> dict[str, Any]:
         """Adds an object with the keys of the table ``object``, such as ``sphere``, ``material`` and ``transform``.
@@ -143,11 +150,16 @@ class Scene:
 
         Args:
             background: A colour, the name of a built-in environment, a table of the format, or the pixels of an
-                equirectangular picture, (height, 2 * height, 3), linear.
+                equirectangular picture, (height, 2 * height, 3): bytes are sRGB, floats are linear.
             **table: Keys beside a picture, such as ``strength`` and ``rotation_deg``.
         """
         if hasattr(background, "shape") and getattr(background, "ndim", 0) == 3:
-            background = {"picture": self._add_picture("background", background, "exr"), **table}
+            background = {"picture": self._add_picture("background", background)}
+        if table:
+            background = {"environment": background} if isinstance(background, str) else background
+            if not isinstance(background, Mapping):
+                raise UsageError(f"{', '.join(table)} has no effect: a colour has none. Give a picture or a built-in environment.")
+            background = {**background, **table}
         self.document["background"] = background
 
     def inspect(self, **settings: Unpack[InspectKeywords]) -> dict[str, Any]:
@@ -158,13 +170,12 @@ class Scene:
         """The name of the native file and all files."""
         return "scene.toml", {**self.files, "scene.toml": self.to_toml().encode()}
 
-    def _add_picture(self, name: str, picture: Any, ending: str = "png") -> str:
+    def _add_picture(self, name: str, picture: Any) -> str:
         if isinstance(picture, (bytes, bytearray, memoryview)):
             data = bytes(picture)
             return self._add_file(name, _picture_ending(data), data)
         size, pixels, is_linear, _ = as_pixels(picture)
-        if is_linear:
-            ending = "exr"
+        ending = "exr" if is_linear else "png"
         return self._add_file(name, ending, _native.encode(size, pixels, ending))
 
     def _add_file(self, name: str, ending: str, data: bytes) -> str:
@@ -199,19 +210,35 @@ def as_pixels(picture: Any) -> tuple[tuple[int, int], bytes, bool, bool]:
     array = np.asarray(picture)
     if array.ndim == 2:
         array = np.repeat(array[:, :, None], 3, axis=2)
-    if array.ndim != 3 or array.shape[2] not in (3, 4) or array.dtype.kind not in "uif":
+    if array.ndim != 3 or array.shape[2] not in (3, 4) or array.dtype.kind not in "uif" or array.size == 0:
         raise SceneError(f"bad picture: an array of {array.shape}. Give (height, width, 3 or 4) bytes or floats.")
     is_linear = array.dtype.kind == "f"
-    most = 1 if is_linear else np.iinfo(array.dtype).max
+    most = 65535 if array.dtype == np.uint16 else 255
+    if not is_linear and (array.min() < 0 or array.max() > most):
+        raise SceneError(f"bad picture: numbers of {array.min()} to {array.max()}. Give whole numbers of 0 to 255, or floats.")
+    if is_linear and not np.isfinite(array).all():
+        raise SceneError("bad picture: numbers that are not finite. Give finite ones.")
     pixels = np.ones((*array.shape[:2], 4), np.float32)
-    pixels[..., : array.shape[2]] = array / np.float32(most)
+    pixels[..., : array.shape[2]] = array if is_linear else array / np.float32(most)
     height, width = array.shape[:2]
     return (width, height), pixels.tobytes(), is_linear, array.shape[2] == 4
+
+
+def as_mesh(scene: Any) -> Mesh | None:
+    """The mesh of an object with vertices and faces alone."""
+    is_file = isinstance(scene, (str, os.PathLike, bytes, bytearray, memoryview, Scene))
+    return None if is_file or _is_of_trimesh(scene) and _is_textured(scene) else Mesh.of(scene)
+
+
+def _is_of_trimesh(scene: Any) -> bool:
+    return type(scene).__module__.split(".")[0] == "trimesh"
 
 
 def as_source(scene: Any) -> Source:
     """The name of a scene file, and its files if they are not on the disk."""
     if isinstance(scene, (str, os.PathLike)):
+        if not os.fspath(scene):
+            raise SceneError("cannot read the scene: the path is empty. Give the path of a file.")
         return os.fsdecode(os.fspath(scene)), None
     if isinstance(scene, (bytes, bytearray, memoryview)):
         data = bytes(scene)
@@ -219,7 +246,9 @@ def as_source(scene: Any) -> Source:
         return name, {name: data}
     if isinstance(scene, Scene):
         return scene._source()
-    if type(scene).__module__.split(".")[0] == "trimesh" and _is_textured(scene):
+    if _is_of_trimesh(scene) and _is_textured(scene):
+        if getattr(scene, "is_empty", False):
+            raise SceneError("cannot render this: the scene of trimesh is empty. Add a mesh to it.")
         return "mesh.glb", {"mesh.glb": scene.export(file_type="glb")}
     return "mesh.ply", {"mesh.ply": Mesh.of(scene).ply()}
 
@@ -243,6 +272,8 @@ def _scene_ending(data: bytes) -> str:
         return "stl"
     if re.match(rb"\d+\s+amb:", start):
         return "scene"
+    if re.search(rb"(?m)^v\s*$\s*^from\s", data[:4096]):
+        return "nff"
     if re.search(rb"(?m)^v\s+[-+.\d]", data):
         return "obj"
     return "toml"

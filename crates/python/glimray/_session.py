@@ -49,7 +49,10 @@ def call(function: Callable[..., Any], *arguments: Any) -> Any:
 @functools.cache
 def keywords(command: str) -> dict[str, dict[str, Any]]:
     """The keywords of a command by name: flag, form of the value, choices and help."""
-    return {found["name"]: found for found in json.loads(_native.keywords(command))}
+    found = json.loads(_native.keywords(command))
+    if not found:
+        raise UsageError(f"there is no command {command}: choose render, animate, turntable, sheet, explain, inspect or convert.")
+    return {keyword["name"]: keyword for keyword in found}
 
 
 def arguments(
@@ -62,7 +65,9 @@ def arguments(
         UsageError: A value has no form that the flag takes.
     """
     known = keywords(command)
-    words = [command, os.fspath(name)]
+    name = os.fspath(name)
+    # A name is no flag, and not standard input.
+    words = [command, f"./{name}" if name.startswith("-") else name]
     for key, value in settings.items():
         if key not in known:
             near = difflib.get_close_matches(key, known, n=1)
@@ -77,7 +82,7 @@ def _words(keyword: Mapping[str, Any], value: Any) -> Iterable[str]:
     if value is None:
         return []
     if keyword["is_switch"]:
-        if not isinstance(value, bool):
+        if not isinstance(value, bool) and type(value).__name__ not in ("bool_", "bool"):
             raise UsageError(f"{keyword['name']} is True or False, not {value!r}.")
         if value:
             return [flag]
@@ -87,23 +92,37 @@ def _words(keyword: Mapping[str, Any], value: Any) -> Iterable[str]:
         if isinstance(value, Mapping):
             value = [f"{key}={_toml(item)}" for key, item in value.items()]
         values = [value] if isinstance(value, (str, os.PathLike)) else value
-        return [f"{flag}={_text(item, ',')}" for item in values]
+        return [f"{flag}={_text(keyword, item, ',')}" for item in _items(keyword, values)]
     if isinstance(value, bool):
         raise UsageError(f"{keyword['name']} is {keyword['value']}, not {value}.")
     separator = {"WxH": "x", "A..B": ".."}.get(keyword["value"], ",")
-    return [f"{flag}={_text(value, separator)}"]
+    return [f"{flag}={_text(keyword, value, separator)}"]
 
 
-def _text(value: Any, separator: str) -> str:
+def _items(keyword: Mapping[str, Any], value: Any) -> list[Any]:
+    try:
+        return list(value)
+    except TypeError:
+        raise UsageError(f"{keyword['name']} is {keyword['value']}, not {value!r}.") from None
+
+
+def _text(keyword: Mapping[str, Any], value: Any, separator: str) -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, os.PathLike):
         return os.fsdecode(os.fspath(value))
+    if getattr(value, "ndim", None) == 0:
+        # A number of NumPy.
+        value = value.item()
     if hasattr(value, "__iter__"):
-        return separator.join(_text(item, separator) for item in value)
+        return separator.join(_text(keyword, item, separator) for item in value)
     if hasattr(value, "__index__"):
         return str(value.__index__())
-    return repr(float(value))
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise UsageError(f"{keyword['name']} is {keyword['value']}, not {value!r}.") from None
+    return str(int(number)) if number.is_integer() and abs(number) < 2**53 else repr(number)
 
 
 def _toml(value: Any) -> str:
@@ -112,7 +131,14 @@ def _toml(value: Any) -> str:
         return "{" + ", ".join(f"{json.dumps(key)} = {_toml(item)}" for key, item in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(_toml, value)) + "]"
-    return json.dumps(value)
+    if hasattr(value, "tolist"):
+        return _toml(value.tolist())
+    try:
+        if value is None:
+            raise TypeError
+        return json.dumps(value, allow_nan=False)
+    except (TypeError, ValueError):
+        raise UsageError(f"set takes numbers, text, lists and dicts, not {value!r}.") from None
 
 
 def run(

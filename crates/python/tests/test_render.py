@@ -90,6 +90,8 @@ def test_values_are_linear_radiance():
     assert picture.numpy()[1, 2] == pytest.approx([0.25, 0.5, 2.0, 1.0])
     assert np.asarray(picture).shape == (3, 4, 4)
     assert picture.buffer().shape == (3, 4, 4)
+    if sys.version_info >= (3, 12):
+        assert memoryview(picture).shape == (3, 4, 4)
     # sRGB of 0.25 is 137, of 0.5 is 188 (IEC 61966-2-1).
     assert picture.display()[0, 0].tolist() == [137, 188, 255]
     assert picture._repr_png_().startswith(b"\x89PNG")
@@ -110,7 +112,27 @@ def test_idle_keywords_raise():
         gl.render(SPHERES, fit=True, size=(8, 8))
 
 
-@pytest.mark.parametrize("settings, said", [({"samples": 0}, "samples"), ({"size": (0, 4)}, "size"), ({"tone": "x"}, "tone")])
+@pytest.mark.parametrize(
+    "settings",
+    [{"samples": np.array(2)}, {"samples": 2.0}, {"samples": np.float64(2)}, {"samples": "2"}, {"no_bvh": np.True_, "samples": 2},
+     {"set": {"output.samples": np.int64(2)}}, {"set": ["output.samples=2"]}],
+)
+def test_numbers_of_numpy_are_values(settings):
+    assert gl.render(ROOT / "assets/scenes/shapes.toml", size=np.array([8, 6]), **settings).report["image"]["samples"] == 2
+
+
+def test_names_are_no_flags_and_keep_their_dashes(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("--help", "-x.glb", "my--model-x.glb"):
+        with pytest.raises(gl.SceneError, match=name):
+            gl.render(name)
+    gl.render(SPHERES, size=(8, 8)).save("-a.png")
+    assert (tmp_path / "-a.png").exists()
+    with pytest.raises(gl.SceneError, match="empty"):
+        gl.render("")
+
+
+@pytest.mark.parametrize("settings, said", [({"samples": object()}, "samples"), ({"set": 5}, "set"), ({"set": {"x": None}}, "set"), ({"samples": 0}, "samples"), ({"size": (0, 4)}, "size"), ({"tone": "x"}, "tone")])
 def test_values_out_of_range_are_refused(settings, said):
     with pytest.raises(gl.UsageError, match=said):
         gl.render(SPHERES, **settings)
@@ -257,6 +279,9 @@ def test_a_pixel_is_explained_as_data():
     picture = gl.render(SPHERES, size=(16, 12), samples=1)
     explained = picture.explain(8, 6)
     assert explained["pixel"] == [8, 6]
+    # The rays' contributions add up to the pixel of linear light.
+    color = np.array([ray["contribution"] for sample in explained["samples"] for ray in sample["rays"]]).sum(axis=0)
+    assert picture.numpy()[6, 8, :3] == pytest.approx(color, rel=1e-3)
 
 
 def test_videos_are_files_or_bytes(tmp_path):
@@ -288,6 +313,11 @@ def test_pictures_are_compared(tmp_path):
     assert same.rmse == 0 and same.psnr == float("inf") and same.flip == 0 and same.beyond == 0
     other = picture.display().copy()
     other[3, 5, 1] ^= 16
+    assert gl.compare(np.zeros((4, 4, 3), int), np.full((4, 4, 3), 255)).rmse == 1
+    with pytest.raises(gl.SceneError, match="256"):
+        gl.compare(np.zeros((4, 4, 3), int), np.full((4, 4, 3), 256))
+    with pytest.raises(gl.UsageError, match="tolerance"):
+        gl.compare(picture, picture, tolerance=-1)
     changed = gl.compare(picture, other, tolerance=8)
     assert changed.largest == pytest.approx(16) and changed.largest_at == (5, 3)
     assert changed.rmse == pytest.approx((16 / 255) / (32 * 24 * 3) ** 0.5)

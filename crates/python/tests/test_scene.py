@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -55,7 +57,7 @@ def test_a_saved_scene_renders_to_the_same_pixels(tmp_path):
     assert (gl.render(scene, size=(9, 9)).numpy() == gl.render(tmp_path / "scene.toml", size=(9, 9)).numpy()).all()
 
 
-@pytest.mark.parametrize("make", [list, np.asarray, lambda rows: np.asarray(rows, np.float64 if isinstance(rows[0][0], float) else None)])
+@pytest.mark.parametrize("make", [list, np.asarray, lambda rows: np.asfortranarray(rows, ">i8"), lambda rows: np.repeat(rows, 2, axis=0)[::2]])
 def test_vertices_and_faces_are_lists_or_arrays(make):
     scene = facing()
     scene.add_mesh(gl.Mesh(make(SQUARE), make(HALVES)))
@@ -72,6 +74,41 @@ def test_colours_of_bytes_are_srgb_and_floats_are_linear():
         albedo = gl.render(scene, **ALBEDO).layer("albedo")[4, 4]
         # Some light is reflected by the surface without its colour.
         assert albedo == pytest.approx([0.5029] * 3, abs=0.05)
+
+
+@pytest.mark.parametrize("colors, said", [([[1, 0, 0]] * 4, "floats"), ([[300, 0, 0]] * 4, "300"), ([[2.0, 0, 0]] * 4, "2.0")])
+def test_colours_that_are_neither_bytes_nor_fractions_are_refused(colors, said):
+    with pytest.raises(gl.SceneError, match=said):
+        gl.Mesh(SQUARE, HALVES, colors=colors)
+
+
+def test_without_numpy_meshes_are_the_same(tmp_path):
+    code = f"""
+import sys
+sys.modules["numpy"] = None
+import glimray as gl
+mesh = gl.Mesh({SQUARE}, {HALVES}, colors={[[188, 0, 255]] * 4}, uvs={[[0, 0]] * 4})
+open({str(tmp_path / "a.ply")!r}, "wb").write(mesh.ply())
+"""
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
+    mesh = gl.Mesh(SQUARE, HALVES, colors=[[188, 0, 255]] * 4, uvs=[[0, 0]] * 4)
+    assert (tmp_path / "a.ply").read_bytes() == mesh.ply()
+
+
+def test_scenes_in_one_folder_keep_their_meshes(tmp_path):
+    for name, size in (("a", 1), ("b", 9)):
+        scene = facing()
+        scene.add_mesh(gl.Mesh(size * np.asarray(SQUARE, float), HALVES))
+        if name == "b":
+            with pytest.raises(gl.OutputError, match="mesh.ply"):
+                scene.save(tmp_path / "b.toml")
+        else:
+            scene.save(tmp_path / "a.toml")
+            scene.save(tmp_path / "a.toml")
+    assert gl.inspect(tmp_path / "a.toml")["bounds"]["max"][0] == 1
+    with pytest.raises(gl.SceneError):
+        gl.Scene({"output": {"samples": None}}).save(tmp_path / "c" / "c.toml")
+    assert not (tmp_path / "c").exists()
 
 
 def test_the_origin_of_texture_coordinates_is_the_lower_left():
@@ -131,16 +168,34 @@ def test_open3d_and_pyvista_objects_are_known_by_their_attributes():
         triangle_uvs=np.empty((0, 2)),
     )
     data = SimpleNamespace(active_normals=None, active_texture_coordinates=None, active_scalars=None)
-    pyvista = SimpleNamespace(points=vertices, regular_faces=faces, is_all_triangles=True, point_data=data)
-    for thing in (open3d, pyvista):
+
+    class Mixed:
+        """A mesh of PyVista with triangles and quads."""
+
+        points, is_all_triangles, point_data = vertices, False, data
+
+        @property
+        def regular_faces(self):
+            raise ValueError("faces of several sizes")
+
+        def triangulate(self):
+            return pyvista
+
+    class Surface:
+        """The class of PyVista's objects has the property."""
+
+        points, regular_faces, is_all_triangles, point_data = vertices, faces, True, data
+
+    pyvista = Surface()
+    for thing in (open3d, pyvista, Mixed()):
         assert gl.render(thing, size=(16, 16), samples=1).report["scene"]["triangles"] >= 2
 
 
 def test_bytes_are_known_by_their_beginning(tmp_path):
     ply = gl.Mesh(SQUARE, HALVES).ply()
     obj = b"v -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n"
-    for data, count in ((ply, 2), (obj, 1), (SHAPES.read_bytes(), 5)):
-        assert gl.inspect(data)["triangles"] == count
+    for data, count in ((ply, 2), (obj, 1), (SHAPES.read_bytes(), 5), ((ROOT / "assets/scenes/neutral.nff").read_bytes(), None)):
+        assert gl.inspect(data)["triangles"] == count or count is None
 
 
 def test_an_environment_of_an_array_lights_the_scene():
@@ -149,8 +204,21 @@ def test_an_environment_of_an_array_lights_the_scene():
     scene.add_camera(look_from=[0, 0, 5], look_at=[0, 0, 0])
     scene.set_background(sky)
     assert gl.render(scene, size=(4, 4)).numpy()[0, 0, :3] == pytest.approx([2, 2, 2], rel=1e-3)
+    # Level 188 of sRGB is a linear 0.5029 (IEC 61966-2-1).
+    grey = np.full((8, 16, 3), 188, np.uint8)
+    assert gl.render(scene, size=(4, 4), environment=grey).numpy()[0, 0, :3] == pytest.approx([0.5029] * 3, rel=0.01)
+    scene.set_background(grey, strength=2)
+    assert gl.render(scene, size=(4, 4)).numpy()[0, 0, :3] == pytest.approx([1.0058] * 3, rel=0.01)
+    scene.set_background("furnace", strength=3)
+    assert gl.render(scene, size=(4, 4)).numpy()[0, 0, :3] == pytest.approx([3] * 3, rel=0.01)
+    with pytest.raises(gl.UsageError, match="strength"):
+        scene.set_background([1, 1, 1], strength=2)
+    with pytest.raises(gl.SceneError, match="environment"):
+        gl.render(scene, size=(4, 4), environment=np.ones((3, 4, 3)))
     red = np.zeros((8, 16, 3), np.float32)
     red[..., 0] = 1
+    explained = gl.render(scene, size=(4, 4), environment=red).explain(1, 1)
+    assert explained["pixel"] == [1, 1]
     assert gl.render(scene, size=(4, 4), environment=red).numpy()[0, 0, :3] == pytest.approx([1, 0, 0], abs=1e-3)
 
 
