@@ -88,6 +88,7 @@ test-all: typos deny test python-test features headless wasm embedded
 VERIFY := $(abspath $(TARGET)/verify)
 PRIVATE := $(patsubst %,--exclude %,glimray-link glimray-notices glimray-python)
 package: compiler shaders
+	rm -f $(VERIFY)/package/*.crate
 	CARGO_TARGET_DIR=$(VERIFY) CARGO_PROFILE_DEV_DEBUG=false $(CARGO) package --locked --allow-dirty --workspace $(PRIVATE)
 	rm -rf $(VERIFY)/shaders && mkdir $(VERIFY)/shaders
 	tar -x -f $(VERIFY)/package/glimray-shaders-*.crate -C $(VERIFY)/shaders --strip-components 1

@@ -95,7 +95,7 @@ if command -v dpkg-deb && command -v dpkg-shlibdeps; then
 	} >"$doc/copyright"
 	chmod 644 "$doc/copyright"
 
-	# The libraries that the program is linked with. It reads the control file of a source package.
+	# The libraries that the program is linked with: `dpkg-shlibdeps` reads the control file of a source package.
 	mkdir -p "$work/debian" "$root/DEBIAN"
 	printf 'Source: glimray\n\nPackage: glimray\nArchitecture: any\n' >"$work/debian/control"
 	linked=$(cd "$work" && dpkg-shlibdeps -O root/usr/bin/glimray 2>/dev/null | sed 's/^shlibs:Depends=//')
@@ -119,7 +119,7 @@ if command -v dpkg-deb && command -v dpkg-shlibdeps; then
 		 GPU, and without a display.
 	END
 	dpkg-deb --root-owner-group -Zxz --build "$root" "$out/glimray_${version}_$architecture.deb" >/dev/null
-	# What it needs at least of the C library.
+	# The oldest C library that has all that the program calls.
 	echo "glibc $(objdump -T "$program" | grep -o 'GLIBC_[0-9.]*' | sort -Vu | tail -n 1 | cut -d _ -f 2) or newer"
 fi >"$work/told"
 tail -n 1 "$work/told"

@@ -91,8 +91,11 @@ window() { # ROOT: its window opens
 }
 
 (cd "$packages" && sha256sum --check --quiet SHA256SUMS)
-deb=$(ls "$packages"/glimray_*_"$(dpkg --print-architecture)".deb)
-archive=$(ls "$packages"/glimray-*-linux-gnu.tar.gz)
+# Files of older versions may lie beside these.
+packed() { # ENDING
+	echo "$packages/$(sed -n "s/^[0-9a-f]* [ *]\(glimray[-_].*$1\)\$/\1/p" "$packages/SHA256SUMS")"
+}
+deb=$(packed "_$(dpkg --print-architecture)\.deb") archive=$(packed '-linux-gnu\.tar\.gz')
 
 for release; do
 	base=$out/$release
