@@ -497,7 +497,7 @@ fn every_package_that_is_published_says_what_it_is() {
         };
         let manifest: toml::Table = text.parse().expect("TOML");
         let package = &manifest["package"];
-        // It needs a nightly compiler, and is no member.
+        // The package of the fuzzers needs a nightly compiler, and is no member.
         let is_private = package.get("publish").and_then(toml::Value::as_bool) == Some(false);
         if !is_private {
             published.insert(package["name"].as_str().expect("text").to_owned());

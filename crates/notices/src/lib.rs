@@ -62,13 +62,13 @@ const CARRIED: [(&str, &str, &str); 6] = [
 
 /// A crate in the program.
 pub struct Package {
-    /// Its name in the registry.
+    /// The name in the registry.
     pub name: String,
-    /// Its version.
+    /// The version.
     pub version: String,
-    /// Its licences, as an SPDX expression.
+    /// The licences, as an SPDX expression.
     pub license: String,
-    /// Its authors, which it need not name.
+    /// The authors, if it names any.
     pub authors: Vec<String>,
     /// The address of its sources, if it names one.
     pub repository: Option<String>,
@@ -81,7 +81,7 @@ pub struct Package {
 }
 
 impl Package {
-    /// Its package URL.
+    /// The package URL.
     pub fn url(&self) -> String {
         url(&self.name, &self.version)
     }

@@ -1,4 +1,4 @@
-//! What releases are made of: names of archives, notices of crates, entries for desktops, and the workflow.
+//! The parts of a release: names of archives, notices of crates, entries for desktops, and the workflow.
 
 use super::{cargo, manifest, read};
 use crate::support::verdict::Verdict;
