@@ -84,7 +84,7 @@ test: lint
 test-all: typos deny test python-test features headless wasm embedded
 
 # The crates build in the order of their dependencies, each from what its archive has; the folder keeps what others need.
-# Only release builds embed the kernels, so that their archive is checked as one too.
+# Only release builds embed the kernels, so that their archive is checked as one too, outside of this workspace.
 VERIFY := $(abspath $(TARGET)/verify)
 PRIVATE := $(patsubst %,--exclude %,glimray-link glimray-notices glimray-python)
 package: compiler shaders
@@ -92,6 +92,7 @@ package: compiler shaders
 	CARGO_TARGET_DIR=$(VERIFY) CARGO_PROFILE_DEV_DEBUG=false $(CARGO) package --locked --allow-dirty --workspace $(PRIVATE)
 	rm -rf $(VERIFY)/shaders && mkdir $(VERIFY)/shaders
 	tar -x -f $(VERIFY)/package/glimray-shaders-*.crate -C $(VERIFY)/shaders --strip-components 1
+	echo '[workspace]' >> $(VERIFY)/shaders/Cargo.toml
 	CARGO_TARGET_DIR=$(VERIFY) $(CARGO) check --release --manifest-path $(VERIFY)/shaders/Cargo.toml
 
 DIST ?= $(TARGET)/dist
