@@ -5,7 +5,7 @@ mod canvas;
 mod page;
 mod shot;
 
-use crate::args::{LayerFlags, PictureFlags, SettingFlags, SheetArgs, VIEWS, View};
+use crate::args::{LayerFlags, PictureFlags, SettingFlags, SheetArgs, View};
 use crate::destination::Destination;
 use crate::device::{self, Opening};
 use crate::idle_flags;
@@ -68,12 +68,6 @@ fn render(
         [] => &View::ALL,
         chosen => chosen,
     };
-    if let Some(view) = (1..views.len()).find(|&index| views[..index].contains(&views[index])) {
-        return Err(AppError::Usage(format!(
-            "cannot show a view twice (--views {}). Leave it out.",
-            VIEWS.name(&views[view])
-        )));
-    }
     set_scene(arguments, &picture, &mut scene);
     let shots = Shots::new(&mut scene, views, side)?;
     let job = Job {

@@ -294,7 +294,6 @@ fn a_sheet_that_cannot_be_made_is_refused() {
         ),
         ("sheet arms.obj -o a.png --size 63", 2, "63"),
         ("sheet arms.obj -o a.png --views side", 2, "side"),
-        ("sheet arms.obj -o a.png --views top,left,top", 2, "twice"),
         ("sheet gone.obj -o a.png", 3, "gone.obj"),
         ("sheet plane.toml -o a.png", 3, "no bounded geometry"),
         (
