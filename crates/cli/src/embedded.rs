@@ -5,7 +5,7 @@ use crate::args::{Cli, Command, OutputFlags, RenderArgs};
 use crate::destination::Destination;
 use crate::device::Opening;
 use crate::interrupt::Interrupt;
-use crate::job::{Job, Outcome};
+use crate::job::Job;
 use crate::layers::Finished;
 use crate::report::Draft;
 use crate::{device, dispatch, exit, idle_flags, mesa, picture, render};
@@ -129,7 +129,7 @@ fn parsed(arguments: &[OsString]) -> Result<(Command, ArgMatches), AppError> {
 /// Runs a command, which prints to the host.
 ///
 /// # Errors
-/// Those of the command.
+/// The errors of the command.
 pub fn run(host: Rc<dyn Host>, arguments: &[OsString]) -> Result<(), AppError> {
     let (command, matches) = parsed(arguments)?;
     host::with(host, || dispatch(command, &matches, Instant::now(), None))
@@ -216,22 +216,13 @@ impl Picture {
         draft.seconds.denoise = display.denoise_seconds();
         let mut film = renderer.film()?;
         film.set_tone(tone);
-        let stats = renderer.stats();
-        draft.seconds.set_render_times(stats);
-        draft.seconds.total = started.elapsed().as_secs_f64();
-        Job::warn_of_losses(stats);
-        job.report(
+        let pixels = u64::from(size.0) * u64::from(size.1);
+        job.conclude(
             &settings,
-            Outcome {
-                path: nowhere,
-                size,
-                pixels: u64::from(size.0) * u64::from(size.1),
-                sheet: None,
-                adapter: Some(renderer.adapter()),
-                stats,
-                animation: None,
-            },
-            &draft,
+            (nowhere, size, pixels),
+            &renderer,
+            None,
+            &mut draft,
         )?;
         let gpu = renderer.gpu().clone();
         let output = job.scene.output;

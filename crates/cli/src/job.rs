@@ -322,6 +322,40 @@ impl Job<'_> {
         }
     }
 
+    /// Ends a run whose picture of `size` pixels is at `path`: its times, warnings of losses, a status line and the report.
+    /// `pixels` were rendered.
+    ///
+    /// # Errors
+    /// The report cannot be written.
+    pub fn conclude(
+        &self,
+        settings: &RenderSettings,
+        (path, size, pixels): (&Path, (u32, u32), u64),
+        renderer: &Renderer,
+        sheet: Option<SheetReport>,
+        draft: &mut Draft,
+    ) -> Result<(), AppError> {
+        let stats = renderer.stats();
+        draft.seconds.set_render_times(stats);
+        draft.seconds.total = draft.started.elapsed().as_secs_f64();
+        Self::warn_of_losses(stats);
+        self.console().status(format_args!(
+            "wrote {} ({:.2} s)",
+            path.display(),
+            draft.seconds.total
+        ));
+        let outcome = Outcome {
+            path,
+            size,
+            pixels,
+            adapter: Some(renderer.adapter()),
+            stats,
+            animation: None,
+            sheet,
+        };
+        self.report(settings, outcome, draft)
+    }
+
     /// Writes the report if one was requested.
     pub fn report(
         &self,

@@ -5,7 +5,7 @@ use crate::checkpoint::CheckpointFile;
 use crate::destination::Destination;
 use crate::device::{self, Opening};
 use crate::interrupt::Interrupt;
-use crate::job::{Job, Outcome};
+use crate::job::Job;
 use crate::layers::Finished;
 use crate::progress::Progress;
 use crate::report::Draft;
@@ -77,29 +77,9 @@ pub fn run(
             (outcome, None) => outcome?,
         }
     }
-    let stats = renderer.stats();
-    draft.seconds.set_render_times(stats);
-    draft.seconds.total = draft.started.elapsed().as_secs_f64();
-    Job::warn_of_losses(stats);
-    let path = destination.path();
-    job.console().status(format_args!(
-        "wrote {} ({:.2} s)",
-        path.display(),
-        draft.seconds.total
-    ));
-    job.report(
-        &settings,
-        Outcome {
-            path,
-            size,
-            pixels: u64::from(size.0) * u64::from(size.1),
-            adapter: Some(renderer.adapter()),
-            stats,
-            animation: None,
-            sheet: None,
-        },
-        draft,
-    )
+    let pixels = u64::from(size.0) * u64::from(size.1);
+    let made = (destination.path(), size, pixels);
+    job.conclude(&settings, made, &renderer, None, draft)
 }
 
 /// The renderer of a scene while the shutter is open, from `shutter.0` to `shutter.1` in seconds. The scene is packed while

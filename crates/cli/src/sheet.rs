@@ -5,12 +5,12 @@ mod canvas;
 mod page;
 mod shot;
 
-use crate::args::{LayerFlags, PictureFlags, SettingFlags, SheetArgs, View};
+use crate::args::{LayerFlags, PictureFlags, SettingFlags, SheetArgs, VIEWS};
 use crate::destination::Destination;
 use crate::device::{self, Opening};
 use crate::idle_flags;
 use crate::interrupt::Interrupt;
-use crate::job::{self, Job, Outcome};
+use crate::job::{self, Job};
 use crate::layers::Finished;
 use crate::progress::Progress;
 use crate::report::{Draft, SceneReport};
@@ -64,8 +64,9 @@ fn render(
         reading.strict,
     )?;
     let side = arguments.views.size;
+    let all: Vec<_> = VIEWS.0.iter().map(|(.., view)| *view).collect();
     let views = match &*arguments.views.views {
-        [] => &View::ALL,
+        [] => &*all,
         chosen => chosen,
     };
     set_scene(arguments, &picture, &mut scene);
@@ -140,29 +141,9 @@ fn render(
     destination.save(&Finished::plain(page.into_image(), false))?;
     draft.seconds.write = writing.elapsed().as_secs_f64();
 
-    let stats = renderer.stats();
-    draft.seconds.set_render_times(stats);
-    draft.seconds.total = draft.started.elapsed().as_secs_f64();
-    Job::warn_of_losses(stats);
-    let path = destination.path();
-    job.console().status(format_args!(
-        "wrote {} ({:.2} s)",
-        path.display(),
-        draft.seconds.total
-    ));
-    job.report(
-        &settings,
-        Outcome {
-            path,
-            size,
-            pixels: views.len() as u64 * u64::from(side) * u64::from(side),
-            adapter: Some(renderer.adapter()),
-            stats,
-            animation: None,
-            sheet: Some(report),
-        },
-        draft,
-    )
+    let pixels = views.len() as u64 * u64::from(side) * u64::from(side);
+    let made = (destination.path(), size, pixels);
+    job.conclude(&settings, made, &renderer, Some(report), draft)
 }
 
 /// The flags of the picture of a view. A model is rendered by classical rays: they are quick, and show shapes without noise.

@@ -31,17 +31,6 @@ pub struct Shots {
 }
 
 impl View {
-    pub const ALL: [Self; 8] = [
-        Self::Front,
-        Self::Back,
-        Self::Left,
-        Self::Right,
-        Self::Top,
-        Self::Bottom,
-        Self::FrontRight,
-        Self::BackLeft,
-    ];
-
     /// Whether the view is along an axis, and so to scale.
     pub fn is_to_scale(self) -> bool {
         !matches!(self, Self::FrontRight | Self::BackLeft)
