@@ -56,7 +56,7 @@ impl RayQuery {
         made.map_err(|failure| failure.raised(py))
     }
 
-    /// What was left out of the scene, as sentences.
+    /// The parts of the file that were left out, as sentences.
     fn skipped(&self) -> Vec<String> {
         self.scene.skipped.clone()
     }
@@ -82,22 +82,16 @@ impl RayQuery {
     ) -> PyResult<Bound<'py, PyBytes>> {
         let given = Given::new(origins, directions, t_max)?;
         let mut rows = vec![Row::MISS; given.count()];
-        py.detach(|| {
-            self.check_process()?;
-            let places = self.places();
-            let mut chunks = rows.chunks_mut(CHUNK);
-            given.for_chunks(|rays| {
-                let hits = self
-                    .query
-                    .closest_hits_of(&self.batch(rays, is_coherent)?)?;
-                threads::fill(chunks.next().unwrap_or_default(), |index| {
-                    let hit = hits[index];
-                    hit.map_or(Row::MISS, |hit| self.row(&places, &rays[index], &hit))
-                });
-                Ok(())
-            })
-        })
-        .map_err(|failure| failure.raised(py))?;
+        let places = self.places();
+        let mut chunks = rows.chunks_mut(CHUNK);
+        self.trace(py, &given, is_coherent, |rays, batch| {
+            let hits = self.query.closest_hits_of(batch)?;
+            threads::fill(chunks.next().unwrap_or_default(), |index| {
+                let hit = hits[index];
+                hit.map_or(Row::MISS, |hit| self.row(&places, &rays[index], &hit))
+            });
+            Ok(())
+        })?;
         Ok(PyBytes::new(py, bytemuck::cast_slice(&rows)))
     }
 
@@ -112,15 +106,11 @@ impl RayQuery {
     ) -> PyResult<Bound<'py, PyBytes>> {
         let given = Given::new(origins, directions, t_max)?;
         let mut found = Vec::with_capacity(given.count());
-        py.detach(|| {
-            self.check_process()?;
-            given.for_chunks(|rays| {
-                let occluded = self.query.occluded_of(&self.batch(rays, is_coherent)?)?;
-                found.extend(occluded.into_iter().map(u8::from));
-                Ok(())
-            })
-        })
-        .map_err(|failure| failure.raised(py))?;
+        self.trace(py, &given, is_coherent, |_, batch| {
+            let occluded = self.query.occluded_of(batch)?;
+            found.extend(occluded.into_iter().map(u8::from));
+            Ok(())
+        })?;
         Ok(PyBytes::new(py, &found))
     }
 
@@ -136,7 +126,7 @@ impl RayQuery {
     }
 }
 
-/// What a ray hits.
+/// The hit of a ray.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct Row {
@@ -194,19 +184,28 @@ impl RayQuery {
         })
     }
 
-    /// A device does not survive a fork.
-    fn check_process(&self) -> Result<(), Failure> {
-        match self.process == std::process::id() {
-            true => Ok(()),
-            false => Err(Failure::Forked),
-        }
-    }
-
-    fn batch(&self, rays: &[QueryRay], is_coherent: bool) -> Result<RayBatch, RenderError> {
-        Ok((self.query.batch(rays)?).with_coherence(match is_coherent {
+    /// Calls `answer` with one chunk of rays after the other, without holding the interpreter.
+    fn trace(
+        &self,
+        py: Python,
+        given: &Given,
+        is_coherent: bool,
+        mut answer: impl FnMut(&[QueryRay], &RayBatch) -> Result<(), RenderError> + Send,
+    ) -> PyResult<()> {
+        let coherence = match is_coherent {
             true => Coherence::Coherent,
             false => Coherence::Incoherent,
-        }))
+        };
+        let traced = py.detach(|| {
+            if self.process != std::process::id() {
+                return Err(Failure::Forked);
+            }
+            given.for_chunks(|rays| {
+                let batch = self.query.batch(rays)?.with_coherence(coherence);
+                answer(rays, &batch)
+            })
+        });
+        traced.map_err(|failure| failure.raised(py))
     }
 
     /// From each instance to the world.
