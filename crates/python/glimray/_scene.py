@@ -227,11 +227,7 @@ def as_pixels(picture: Any) -> tuple[tuple[int, int], bytes, bool, bool]:
 def as_mesh(scene: Any) -> Mesh | None:
     """The mesh of an object with vertices and faces alone."""
     is_file = isinstance(scene, (str, os.PathLike, bytes, bytearray, memoryview, Scene))
-    return None if is_file or _is_of_trimesh(scene) and _is_textured(scene) else Mesh.of(scene)
-
-
-def _is_of_trimesh(scene: Any) -> bool:
-    return type(scene).__module__.split(".")[0] == "trimesh"
+    return None if is_file or _is_textured(scene) else Mesh.of(scene)
 
 
 def as_source(scene: Any) -> Source:
@@ -246,15 +242,18 @@ def as_source(scene: Any) -> Source:
         return name, {name: data}
     if isinstance(scene, Scene):
         return scene._source()
-    if _is_of_trimesh(scene) and _is_textured(scene):
-        if getattr(scene, "is_empty", False):
-            raise SceneError("cannot render this: the scene of trimesh is empty. Add a mesh to it.")
-        return "mesh.glb", {"mesh.glb": scene.export(file_type="glb")}
-    return "mesh.ply", {"mesh.ply": Mesh.of(scene).ply()}
+    mesh = as_mesh(scene)
+    if mesh is not None:
+        return "mesh.ply", {"mesh.ply": mesh.ply()}
+    if getattr(scene, "is_empty", False):
+        raise SceneError("cannot render this: the scene of trimesh is empty. Add a mesh to it.")
+    return "mesh.glb", {"mesh.glb": scene.export(file_type="glb")}
 
 
 def _is_textured(scene: Any) -> bool:
-    """Whether only a glTF file keeps all of a scene or mesh of trimesh."""
+    """Whether it is a scene or mesh of trimesh of which only a glTF file keeps all."""
+    if type(scene).__module__.split(".")[0] != "trimesh":
+        return False
     return hasattr(scene, "geometry") or getattr(getattr(scene, "visual", None), "kind", None) == "texture"
 
 
