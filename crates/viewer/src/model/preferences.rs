@@ -85,7 +85,7 @@ pub struct Preferences {
     pub recent: Vec<PathBuf>,
     /// Whether moves, rotations and scales snap without a key.
     pub snaps: bool,
-    /// What is drawn over the picture.
+    /// The overlays of the picture.
     #[serde(skip_deserializing)]
     pub overlays: Overlays,
     /// Keyboard and mouse bindings.

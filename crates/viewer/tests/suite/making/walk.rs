@@ -41,7 +41,7 @@ struct Walk {
     folder: TempDir,
 }
 
-/// What the walk does, and how many times.
+/// The edits of the walk by name, and how many times it makes each.
 const EDITS: [(&str, usize, Edit); 22] = [
     ("add", 3, |walk| walk.add(0..ADDITIONS.len())),
     ("duplicate", 3, |walk| {
@@ -340,7 +340,7 @@ impl Walk {
         drag(&mut self.window, from, from + vec2(x, y));
     }
 
-    /// What an edit needs that the scene lacks, and how to add it.
+    /// A thing that edits need and the scene lacks, and how to add it.
     fn lacks(&self) -> Option<(&'static str, Edit)> {
         let scene = scene(&self.window);
         let lamps = 0..scene.lights.len();
