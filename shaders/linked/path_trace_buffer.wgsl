@@ -8,6 +8,7 @@ fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 	var sample = batch.first_sample;
 	var path = path__camera_path(batch, pixel, sample);
 	var walk = path__next_walk(path);
+	let most_walks = select(WALKS, 1u, batch.end_sample == 0u);
 	loop {
 		var walks = 0u;
 		loop {
@@ -19,10 +20,10 @@ fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 			walks += 1u;
 			continuing {
 			
-				break if walks >= WALKS;
+				break if walks >= most_walks;
 			}
 		}
-		loops__cut_off |= walks < WALKS;
+		loops__cut_off |= walks < most_walks;
 		if (!traverse__is_walking(walk) && (!path__is_to_lamp(path) || shadow__may_pass(walk.hit))) {
 			if (path__is_going(path)) {
 				path = path_vertex__traced(batch, path, walk.hit);
