@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Path-traces six scenes with Mitsuba (variant scalar_rgb), Cycles (PyPI `bpy`) and glimray, for the same time each.
+"""Path-traces scenes with Mitsuba (variants scalar_rgb and llvm_ad_rgb), Cycles (PyPI `bpy`) and glimray, for the same
+time each.
 
 Each renderer gets as many samples as it takes in --seconds, found by a short run first. Two pictures of different seeds
 have independent errors, so half of their mean squared difference is the mean squared error of either; it is divided by
-the square of their mean, plus 0.01. The machine may be busy: errors are scaled to the CPU seconds that were asked for,
-as the mean squared error is in proportion to 1 / time. Pictures go into the folder.
+the square of their mean, plus 0.01. The second pictures are rendered in the opposite order. The machine may be busy:
+errors are scaled to the CPU seconds that were asked for, as the mean squared error is in proportion to 1 / time. Seconds
+are those of glimray's and Cycles' whole processes, and of Mitsuba's renders in a process that has compiled its kernels.
+Pictures go into the folder.
 """
 
 import argparse
@@ -13,7 +16,6 @@ import os
 import subprocess
 import sys
 import time
-from functools import cached_property
 from pathlib import Path
 
 import mitsuba as mi
@@ -25,7 +27,9 @@ from path_scenes import BOUNCES
 
 mi.set_variant("scalar_rgb")
 
-RENDERERS = ("glimray", "Mitsuba", "Cycles")
+RENDERERS = ("glimray", "scalar_rgb", "llvm_ad_rgb", "Cycles")
+# Samples of all pixels that Mitsuba's LLVM variant takes at once: each is a lane with a state in memory.
+MOST_LANES = 1 << 24
 
 
 def rgb(values):
@@ -55,7 +59,7 @@ def native(scene, folder):
         elif m.ior:
             material = f"refract = {{ ior = {m.ior} }}"
         else:
-            material = f"phong = {{ diffuse = [0, 0, 0] }}, emission = {list(m.radiance)}"
+            material = f"phong = {{ diffuse = [0, 0, 0] }}, emission = {list(m.radiance)}, two_sided_emission = false"
         lines.append(f'[[objects]]\nmesh = {{ file = "{name}" }}\nmaterial = {{ {material} }}')
     file = folder / f"{scene.name}.toml".replace(" ", "_")
     file.write_text("\n".join(lines) + "\n")
@@ -155,7 +159,9 @@ def peer(scene, size):
 
 
 def picture_of(path):
-    bitmap = mi.Bitmap(str(path)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
+    layers = dict(mi.Bitmap(str(path)).split())
+    # glimray names the radiance of pictures with a tone curve, as those of models are.
+    bitmap = layers.get("beauty", layers["<root>"]).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
     return np.array(bitmap, dtype=np.float64)
 
 
@@ -165,15 +171,15 @@ class Renderers:
     def __init__(self, parsed, name, scene):
         self.parsed, self.name, self.scene, self.folder = parsed, name, scene, parsed.folder
         self.size = tuple(map(int, parsed.size.split("x")))
+        mi.set_variant("scalar_rgb")
         self.file = scene.model.path if scene.model else native(scene, parsed.folder)
-
-    @cached_property
-    def peer(self):
-        return peer(self.scene, self.size)
+        self.peers = {}
 
     def render(self, renderer, samples, seed):
         out = self.folder / f"{self.name}-{renderer}-{seed}.exr"
-        return getattr(self, renderer.lower())(samples, seed, out)
+        if renderer in ("glimray", "Cycles"):
+            return getattr(self, renderer.lower())(samples, seed, out)
+        return self.mitsuba(renderer, samples, seed, out)
 
     def glimray(self, samples, seed, out, more=()):
         report = out.with_suffix(".json")
@@ -183,19 +189,29 @@ class Renderers:
             views = (("--look-from", self.scene.look_from), ("--look-at", self.scene.look_at))
             command += [part for flag, at in views for part in (flag, ",".join(map(str, at)))]
             command += ["--fov-y", self.scene.fov_y_deg, "--environment", self.scene.environment, "--bare"]
+        else:
+            # Mitsuba's microfacets have no compensation.
+            command += ["--bsdf", "spec"]
         command += more
+        wall = time.perf_counter()
         process = subprocess.Popen(list(map(str, command)))
         _, status, usage = os.wait4(process.pid, 0)
         if status:
             sys.exit(f"glimray failed: {' '.join(map(str, command))}")
-        return picture_of(out), json.loads(report.read_text())["seconds"]["trace"], usage.ru_utime + usage.ru_stime
+        return picture_of(out), time.perf_counter() - wall, usage.ru_utime + usage.ru_stime
 
-    def mitsuba(self, samples, seed, out):
+    def mitsuba(self, variant, samples, seed, out):
+        mi.set_variant(variant)
+        if variant not in self.peers:
+            self.peers[variant] = peer(self.scene, self.size)
+        most = MOST_LANES // (self.size[0] * self.size[1]) if variant.startswith("llvm") else samples
+        parts = [min(most, samples - first) for first in range(0, samples, most)]
         wall, cpu = time.perf_counter(), time.process_time()
-        picture = mi.render(self.peer, spp=samples, seed=seed)
+        picture = sum(np.array(mi.render(self.peers[variant], spp=part, seed=seed + 2 * i), dtype=np.float64) * part
+                      for i, part in enumerate(parts)) / samples
         wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
-        mi.Bitmap(picture).write(str(out))
-        return np.array(picture, dtype=np.float64), wall, cpu
+        mi.Bitmap(picture.astype(np.float32)).write(str(out))
+        return picture, wall, cpu
 
     def cycles(self, samples, seed, out):
         script = Path(__file__).with_name("cycles_render.py")
@@ -225,36 +241,44 @@ def main():
     parsed.folder = parsed.folder.resolve()
     os.environ["LP_NUM_THREADS"] = str(parsed.threads)
     budget = parsed.seconds * parsed.threads
-    rows, log = [], []
+    rows = []
     scenes = path_scenes.all_scenes(parsed.folder, parsed.surroundings)
     for name, scene in scenes.items():
         if parsed.scenes and name not in parsed.scenes.split(","):
             continue
         renderers = Renderers(parsed, name, scene)
+        counts, least, found = {}, {}, {}
         for renderer in parsed.renderers.split(","):
             # The first fills the shader cache, and what it takes to begin is in both.
             renderers.render(renderer, 1, 0)
-            least = renderers.render(renderer, 1, 0)[2]
+            least[renderer] = renderers.render(renderer, 1, 0)[2]
             samples, cpu = 4, 0
-            while cpu - least < budget / 12:
+            while cpu - least[renderer] < budget / 12:
                 samples *= 2
                 cpu = renderers.render(renderer, samples, 0)[2]
-            samples = max(1, round(samples * budget / (cpu - least)))
-            found = [renderers.render(renderer, samples, seed) for seed in (1, 2)]
-            pictures, walls, cpus = zip(*found)
+            counts[renderer] = max(1, round(samples * budget / (cpu - least[renderer])))
+            found[renderer] = []
+        for seed in (1, 2):
+            for renderer in list(found)[::3 - 2 * seed]:
+                found[renderer].append(renderers.render(renderer, counts[renderer], seed))
+        own = None
+        for renderer in found:
+            pictures, walls, cpus = zip(*found[renderer])
             cpu = sum(cpus) / len(cpus)
-            error = relative_error(*pictures) * (cpu - least if renderer == "glimray" else cpu) / budget
-            mean = sum(pictures) / 2
-            log.append({"scene": name, "renderer": renderer, "samples": samples, "wall": walls, "cpu": cpus, "error": error,
-                        "mean": mean.mean()})
-            print(json.dumps(log[-1]), flush=True)
-        found = {record["renderer"]: record for record in log if record["scene"] == name}
-        own = found.get("glimray")
-        for renderer, r in found.items():
-            ratio = f"{own['error'] / r['error']:.2f}" if own and r is not own else ""
-            rows.append([name, renderer, r["samples"], f"{sum(r['wall']) / 2:.1f}", f"{sum(r['cpu']) / 2:.0f}",
-                         f"{r['mean']:.4f}", f"{r['error']:.2e}", ratio])
-    print(tables.table(["scene", "renderer", "samples", "wall s", "CPU s", "mean", "relative MSE", "glimray's / this"], rows))
+            error = relative_error(*pictures) * (cpu - least[renderer] if renderer == "glimray" else cpu) / budget
+            mean = (sum(pictures) / 2).mean()
+            wall = sum(walls) / 2
+            pixels = pictures[0].shape[0] * pictures[0].shape[1]
+            rate = counts[renderer] * pixels / 1e6 / wall
+            record = {"scene": name, "renderer": renderer, "samples": counts[renderer], "wall": walls, "cpu": cpus, "error": error,
+                      "mean": mean, "rate": rate}
+            print(json.dumps(record), file=sys.stderr, flush=True)
+            own = record if renderer == "glimray" else own
+            ratios = [f"{own[key] / record[key]:.2f}" if own and renderer != "glimray" else "" for key in ("rate", "error")]
+            rows.append([name, renderer, counts[renderer], f"{wall:.1f}", f"{cpu:.0f}", f"{rate:.2f}", ratios[0], f"{mean:.4f}",
+                         f"{error:.2e}", ratios[1]])
+    print(tables.table(["scene", "renderer", "samples", "wall s", "CPU s", "Msamples/s", "glimray's / this", "mean",
+                        "relative MSE", "glimray's / this"], rows))
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ Lengths are in scene units, y is up, radiances have no unit: 1 is the white of a
 """
 
 import json
+import shutil
 import struct
 import zlib
 from dataclasses import dataclass, field
@@ -161,6 +162,16 @@ def glass():
     return boxed("glass", [gem((-0.4, 0.5, 0.1), 0.45, clear), box((0.45, 0.4, 0.1), (0.1, 0.35, 0.3), clear, 0.4)])
 
 
+def quad_lit():
+    """The Cornell box, with a quad that shines in place of its lamp."""
+    scene = cornell()
+    lamp = scene.rectangles.pop()
+    u, v = 2 * np.array(lamp.edge_u), 2 * np.array(lamp.edge_v)
+    scene.name, corner = "cornell quad", np.array(lamp.center) - u / 2 - v / 2
+    scene.meshes.append(quad(corner, u, v, Material(radiance=lamp.radiance)))
+    return scene
+
+
 def glowing():
     shine = Material(radiance=(16, 10, 5))
     return boxed("glowing mesh", [torus((0.1, 1.35, -0.1), 0.3, 0.05, shine),
@@ -182,6 +193,29 @@ def plates():
     for x, radius, color in ((-3.4, 0.033, (1, 0.5, 0.4)), (-1.3, 0.1, (1, 0.9, 0.4)), (0.9, 0.3, (0.5, 1, 0.6)),
                              (3.4, 0.9, (0.4, 0.6, 1))):
         scene.spheres.append(Sphere((x, 2.6, -1.5), radius, tuple(0.9 * c / radius**2 for c in color)))
+    return scene
+
+
+def glowing_plates():
+    """The plates, under spheres of 900 to 2,200 triangles."""
+    scene = plates()
+    lamps, scene.spheres = scene.spheres[1:], []
+    for lamp, cells in zip(lamps, ((30, 15), (40, 20), (44, 25))):
+        vertices, _, _, triangles = ball(lamp.center, lamp.radius, *cells)
+        scene.meshes.append(Mesh(vertices, triangles, Material(radiance=lamp.radiance)))
+    scene.name = "glowing plates"
+    return scene
+
+
+def metals(folder, surroundings):
+    """Balls of metals that are rough in different ways, on a matte floor under the light of a picture."""
+    floor = quad((-3, 0, 2), (6, 0, 0), (0, 0, -4), matte("white"))
+    picture = Path(shutil.copy(surroundings, folder))
+    scene = Scene("metals", (0, 1.6, 5.2), (0, 0.35, 0), 32, [floor], environment=picture)
+    for i, (color, roughness) in enumerate((((0.95, 0.7, 0.3), 0.1), ((0.9, 0.9, 0.92), 0.25), ((0.95, 0.6, 0.5), 0.4),
+                                            ((0.6, 0.65, 0.7), 0.55), ((0.9, 0.85, 0.6), 0.75))):
+        vertices, _, _, triangles = ball((0.8 * (i - 2), 0.381, 0.15 * (i % 2)), 0.38)
+        scene.meshes.append(Mesh(vertices, triangles, Material(metal=color, roughness=roughness)))
     return scene
 
 
@@ -324,6 +358,7 @@ def helmet_model(path):
 
 
 def all_scenes(folder, surroundings):
-    """The six scenes by name. Files that they need are written to `folder`."""
-    scenes = [cornell(), plates(), helmet(folder, surroundings), glowing(), glass(), terrain(folder)]
+    """The scenes by name. Files that they need are written to `folder`."""
+    scenes = [cornell(), quad_lit(), plates(), glowing_plates(), helmet(folder, surroundings), metals(folder, surroundings), glowing(),
+              glass(), terrain(folder)]
     return {scene.name.replace(" ", "_"): scene for scene in scenes}

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Path-traces the same boxes with Mitsuba (variant scalar_rgb) and glimray.
+"""Path-traces the same boxes with Mitsuba (variants scalar_rgb and llvm_ad_rgb) and glimray.
 
-Prints samples per second of both, measured in turn, and how well the pictures agree: the ratio of their means, and the
-share of pixels whose difference is within the noise. With --references it writes pictures of Mitsuba's mean and of the
-variance of that mean, and the scenes, for the tests (tests/references/paths).
+Prints samples per second of all, measured in turn, and how well the pictures agree: the ratio of their means, and the
+share of pixels whose difference is within the noise. With --references it writes pictures of the mean of Mitsuba's scalar
+variant and of the variance of that mean, and the scenes, for the tests (tests/references/paths).
 """
 
 import argparse
@@ -21,7 +21,9 @@ import numpy as np
 
 import tables
 
-mi.set_variant("scalar_rgb")
+# Of Mitsuba. The first is the slower; it compiles nothing.
+VARIANTS = "scalar_rgb", "llvm_ad_rgb"
+mi.set_variant(VARIANTS[0])
 
 LAMP = {"edge_u": 0.4, "edge_v": 0.35, "strength": [2.6, 2.08, 1.56]}
 CAMERA = {"look_from": [0, 1, 4.9], "look_at": [0, 1, 0], "fov_y_deg": 28.6}
@@ -282,32 +284,40 @@ def write_scene(folder, name):
 def compare(program, names, side, samples, rounds):
     rows = []
     for name in names:
-        scene = peer(name, side)
+        scenes, theirs, ours, seconds = {}, [], [], {variant: [] for variant in ("glimray", *VARIANTS)}
         with tempfile.TemporaryDirectory() as folder:
             file = write_scene(Path(folder), name)
             rendered(program, file, name, side, 1, 0)
-            theirs, ours, seconds, own_seconds = [], [], [], []
-            for seed in range(1, rounds + 1):
-                start = time.perf_counter()
-                theirs.append(np.array(mi.render(scene, spp=samples, seed=seed), dtype=np.float64))
-                seconds.append(time.perf_counter() - start)
-                picture, took = rendered(program, file, name, side, samples, seed)
-                ours.append(picture)
-                own_seconds.append(took)
+            # The first round compiles the kernels and does not count.
+            for seed in range(rounds + 1):
+                for variant in VARIANTS:
+                    mi.set_variant(variant)
+                    if variant not in scenes:
+                        scenes[variant] = peer(name, side)
+                    start = time.perf_counter()
+                    picture = np.array(mi.render(scenes[variant], spp=samples, seed=seed), dtype=np.float64)
+                    if seed > 0:
+                        seconds[variant].append(time.perf_counter() - start)
+                        theirs.append(picture)
+                if seed > 0:
+                    picture, took = rendered(program, file, name, side, samples, seed)
+                    ours.append(picture)
+                    seconds["glimray"].append(took)
         (a, a_variance), (b, b_variance) = moments(ours), moments(theirs)
         # Both round: the lamp itself has no noise.
         z = (a - b) / np.sqrt(a_variance + b_variance + (1e-4 * b) ** 2 + 1e-20)
         # So that all pixels of equal pictures pass with a chance of 99 %.
         limit = NormalDist().inv_cdf(1 - (1 - 0.99 ** (1 / z.size)) / 2) * sqrt(rounds / max(rounds - 3, 1))
-        rate = [side * side * samples / 1e6 / median(times) for times in (own_seconds, seconds)]
-        ratios = [b / a for a, b in zip(own_seconds, seconds)]
-        rows.append([name, f"{rate[0]:.2f}", f"{rate[1]:.2f}", tables.spread(ratios), f"{a.mean() / b.mean():.4f}",
-                     f"{100 * (abs(z) < limit).mean():.2f} %"])
-    print(tables.table(["scene", "glimray, Msamples/s", "Mitsuba", "ratio", "ratio of means", "pixels within noise"], rows))
+        rates = [f"{side * side * samples / 1e6 / median(times):.2f}" for times in seconds.values()]
+        ratios = [tables.spread([b / a for a, b in zip(seconds["glimray"], seconds[variant])]) for variant in VARIANTS]
+        rows.append([name, *rates, *ratios, f"{a.mean() / b.mean():.4f}", f"{100 * (abs(z) < limit).mean():.2f} %"])
+    head = [f"glimray / {variant}" for variant in VARIANTS]
+    print(tables.table(["scene", "glimray, Msamples/s", *VARIANTS, *head, "ratio of means", "pixels within noise"], rows))
 
 
 def write_references(folder, names, side, samples, rounds):
     folder.mkdir(parents=True, exist_ok=True)
+    mi.set_variant(VARIANTS[0])
     for name in names:
         scene = peer(name, side)
         pictures = [np.array(mi.render(scene, spp=samples, seed=seed)) for seed in range(1, rounds + 1)]

@@ -25,22 +25,29 @@ if ! [ -x "$glimray" ]; then
 	exit 1
 fi
 
+exec 3>"$out/log.txt"
 python=$out/venv/bin/python
 [ -x "$python" ] || python3 -m venv "$out/venv"
 "$python" -m pip install --quiet embreex==4.4.0.post1 mitsuba==3.9.1 numpy==2.4.6
+# Dr.Jit cannot compile for AVX-512 with LLVM 14 to 16.
+llvm=(/usr/lib/*/libLLVM.so.19.1)
+if ! [ -e "${llvm[0]}" ]; then
+	sudo=$([ "$(id -u)" -eq 0 ] || echo sudo)
+	$sudo apt-get install --quiet --yes --no-install-recommends libllvm19 >&3
+	llvm=(/usr/lib/*/libLLVM.so.19.1)
+fi
+export DRJIT_LIBLLVM_PATH=${DRJIT_LIBLLVM_PATH:-${llvm[0]}}
 # For the processor at hand, as Embree chooses its code at run time and lavapipe compiles for it.
 RUSTFLAGS="-C target-cpu=native" cargo build --quiet --release --locked --manifest-path $peers/obvhs/Cargo.toml \
 	--target-dir "$out/obvhs"
 
 # Everything is measured in two passes, the second in the opposite order, so that a busy machine affects all.
-exec 3>"$out/log.txt"
 results=()
 measure() { # NAME COMMAND…: one peer; the command gets the file for its results as its last argument
 	echo "pass $pass: $1" >&2
 	if "${@:2}" "$out/$1-$pass.json" >&3; then
 		results+=("$out/$1-$pass.json")
 	else
-		# Mitsuba's LLVM variant needs a newer LLVM than Debian 12 has on processors with AVX-512, for one.
 		echo "pass $pass: $1 failed, and is missing from the report" >&2
 	fi
 }
@@ -65,3 +72,5 @@ for pass in 1 2; do
 done
 "$python" $peers/report.py "${results[@]}" | tee "$out/report.md"
 "$python" $peers/path_tracing.py --glimray "$glimray" --rounds $((4 * rounds)) | tee -a "$out/report.md"
+"$python" $peers/equal_time.py "$out/paths" --glimray "$glimray" --threads "$threads" --seconds 10 \
+	--renderers glimray,scalar_rgb,llvm_ad_rgb | tee -a "$out/report.md"
