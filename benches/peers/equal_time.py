@@ -6,7 +6,7 @@ Each renderer gets as many samples as it takes in --seconds, found by a short ru
 have independent errors, so half of their mean squared difference is the mean squared error of either; it is divided by
 the square of their mean, plus 0.01. The second pictures are rendered in the opposite order. The machine may be busy:
 errors are scaled to the CPU seconds that were asked for, as the mean squared error is in proportion to 1 / time. Seconds
-are those of glimray's and Cycles' whole processes, and of Mitsuba's renders in a process that has compiled its kernels.
+are those of glimray's whole process, of Cycles' render, and of Mitsuba's in a process that has compiled its kernels.
 Pictures go into the folder.
 """
 
@@ -182,9 +182,8 @@ class Renderers:
         return self.mitsuba(renderer, samples, seed, out)
 
     def glimray(self, samples, seed, out, more=()):
-        report = out.with_suffix(".json")
         command = [self.parsed.glimray, "render", self.file, "--integrator", "path", "--size", self.parsed.size, "--samples",
-                   samples, "--max-depth", BOUNCES, "--seed", seed, "--filter", "box", "--quiet", "--report", report, "-o", out]
+                   samples, "--max-depth", BOUNCES, "--seed", seed, "--filter", "box", "--quiet", "-o", out]
         if self.scene.model:
             views = (("--look-from", self.scene.look_from), ("--look-at", self.scene.look_at))
             command += [part for flag, at in views for part in (flag, ",".join(map(str, at)))]
@@ -261,22 +260,20 @@ def main():
         for seed in (1, 2):
             for renderer in list(found)[::3 - 2 * seed]:
                 found[renderer].append(renderers.render(renderer, counts[renderer], seed))
-        own = None
+        records = {}
         for renderer in found:
             pictures, walls, cpus = zip(*found[renderer])
             cpu = sum(cpus) / len(cpus)
             error = relative_error(*pictures) * (cpu - least[renderer] if renderer == "glimray" else cpu) / budget
-            mean = (sum(pictures) / 2).mean()
-            wall = sum(walls) / 2
-            pixels = pictures[0].shape[0] * pictures[0].shape[1]
-            rate = counts[renderer] * pixels / 1e6 / wall
-            record = {"scene": name, "renderer": renderer, "samples": counts[renderer], "wall": walls, "cpu": cpus, "error": error,
-                      "mean": mean, "rate": rate}
-            print(json.dumps(record), file=sys.stderr, flush=True)
-            own = record if renderer == "glimray" else own
-            ratios = [f"{own[key] / record[key]:.2f}" if own and renderer != "glimray" else "" for key in ("rate", "error")]
-            rows.append([name, renderer, counts[renderer], f"{wall:.1f}", f"{cpu:.0f}", f"{rate:.2f}", ratios[0], f"{mean:.4f}",
-                         f"{error:.2e}", ratios[1]])
+            rate = counts[renderer] * pictures[0][..., 0].size / 1e6 / (sum(walls) / 2)
+            records[renderer] = {"scene": name, "renderer": renderer, "samples": counts[renderer], "wall": walls, "cpu": cpus,
+                                 "rate": rate, "mean": (sum(pictures) / 2).mean(), "error": error}
+            print(json.dumps(records[renderer]), file=sys.stderr, flush=True)
+        own = records.get("glimray")
+        for renderer, r in records.items():
+            ratios = [f"{own[key] / r[key]:.2f}" if own and r is not own else "" for key in ("rate", "error")]
+            rows.append([name, renderer, r["samples"], f"{sum(r['wall']) / 2:.1f}", f"{sum(r['cpu']) / 2:.0f}",
+                         f"{r['rate']:.2f}", ratios[0], f"{r['mean']:.4f}", f"{r['error']:.2e}", ratios[1]])
     print(tables.table(["scene", "renderer", "samples", "wall s", "CPU s", "Msamples/s", "glimray's / this", "mean",
                         "relative MSE", "glimray's / this"], rows))
 

@@ -13,5 +13,5 @@ mkdir -p "${DRIVERS:-$root/target/drivers}"
 out=$(realpath "${DRIVERS:-$root/target/drivers}")
 export NODEVICE_SELECT=1
 source "$root/tests/drivers/tree.sh"
-unpack "$DRIVER" || { tail -n 1 "$out/$DRIVER.txt" >&2 && exit 1; }
+unpack "${DRIVER:?names no driver}" || { tail -n 1 "$out/$DRIVER.txt" >&2 && exit 1; }
 limit=86400 inside "$DRIVER" "$glimray" "$@"
