@@ -1339,7 +1339,7 @@ struct tracing__Node {
 	far_y: vec4f,
 	near_z: vec4f,
 	far_z: vec4f,
-	children: vec4u
+	child_count: u32
 }
 
 struct tracing__Cone {
@@ -2127,7 +2127,7 @@ fn section_walk__crossed_at(ray: tracing__Ray, hit: tracing__Hit) -> section_wal
 
 const traverse__EMPTY: u32 = 4294967295u;
 
-const traverse__RETURN: u32 = 4294967294u;
+const traverse__RETURN: u32 = 4294967232u;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
@@ -2447,6 +2447,8 @@ fn numeric__max_component(v: vec3f) -> f32 {
 	return max_f32(v.x, max_f32(v.y, v.z));
 }
 
+const stack__SLOT_BITS: u32 = 6u;
+
 var<private> stack__top: u32;
 
 var<private> stack__entries: array<u32, types__STACK_SIZE>;
@@ -2463,10 +2465,6 @@ var<private> stack__s4: vec4u;
 
 var<private> stack__s5: vec4u;
 
-var<private> stack__s6: vec4u;
-
-var<private> stack__s7: vec4u;
-
 fn stack__start_stack() {
 	if (bindings__STACK_REGISTERS > 0u) {
 		stack__s0 = vec4u(traverse__EMPTY);
@@ -2475,62 +2473,81 @@ fn stack__start_stack() {
 		stack__s3 = vec4u(traverse__EMPTY);
 		stack__s4 = vec4u(traverse__EMPTY);
 		stack__s5 = vec4u(traverse__EMPTY);
-		stack__s6 = vec4u(traverse__EMPTY);
-		stack__s7 = vec4u(traverse__EMPTY);
 		return;
 	}
 	stack__top = 0u;
 	stack__entries[0] = traverse__EMPTY;
 }
 
-fn stack__top_of_stack() -> u32 {
+fn stack__top_entry() -> u32 {
 	if (bindings__STACK_REGISTERS > 0u) {
 		return stack__s0.x;
 	}
 	return stack__entries[stack__top];
 }
 
-fn stack__push(reference: u32) {
-	stack__move_stack(vec3u(reference, traverse__EMPTY, traverse__EMPTY), 1);
+fn stack__push(sentinel: u32) {
+	stack__move_stack(sentinel, stack__top_entry(), 1);
 }
 
 fn stack__popped() -> u32 {
-	let reference = stack__top_of_stack();
-	stack__move_stack(vec3u(traverse__EMPTY), -1);
+	return stack__taken(true);
+}
+
+fn stack__taken(is_taken: bool) -> u32 {
+	let entry = stack__top_entry();
+	let reference = stack__next_of(entry);
+	stack__move_stack(traverse__EMPTY, select(entry, stack__rest_of(entry), is_taken), select(0, -1, is_taken & stack__ends_with(entry)));
 	return reference;
 }
 
-fn stack__move_stack(references: vec3u, count: i32) {
+fn stack__next_child(node: u32, keys: vec4u, count: u32) -> u32 {
+	let entry = stack__top_entry();
+	let goes_down = count > 0u;
+	let slots = keys & vec4u(3u);
+	let reference = stack__next_of(select(entry, (node << stack__SLOT_BITS) | slots.x, goes_down));
+	let third = select(slots.y, slots.z, count > 2u);
+	let last = select(third, slots.w, count > 3u);
+	let others = (node << stack__SLOT_BITS) | slots.y | (third << 2u) | (last << 4u);
+	let popped = select(0, -1, !goes_down & stack__ends_with(entry));
+	stack__move_stack(others, select(stack__rest_of(entry), entry, goes_down), select(popped, 1, count > 1u));
+	return reference;
+}
+
+fn stack__next_of(entry: u32) -> u32 {
+	let children = rows__node_row(types__NODE_ROWS * (entry >> stack__SLOT_BITS) + 3u);
+	return select(node__child_of(children, entry), entry, entry >= traverse__RETURN);
+}
+
+fn stack__rest_of(entry: u32) -> u32 {
+	return (entry & ~15u) | ((entry >> 2u) & 15u);
+}
+
+fn stack__ends_with(entry: u32) -> bool {
+	return ((entry ^ (entry >> 2u)) & 3u) == 0u;
+}
+
+fn stack__move_stack(pushed: u32, replaced: u32, count: i32) {
 	if (bindings__STACK_REGISTERS > 0u) {
-		stack__move_registers(references, count);
+		stack__move_registers(pushed, replaced, count);
 		return;
 	}
-	if (count < 0) {
-		if (stack__entries[stack__top] != traverse__EMPTY) {
-			stack__top -= 1u;
-		}
-		return;
-	}
-	if (count >= 3) {
+	if (count > 0) {
 		stack__top += 1u;
-		stack__entries[stack__top] = references.z;
+		stack__entries[stack__top] = pushed;
 	}
-	if (count >= 2) {
-		stack__top += 1u;
-		stack__entries[stack__top] = references.y;
+	else if (count < 0) {
+		stack__top -= select(0u, 1u, stack__entries[stack__top] != traverse__EMPTY);
 	}
-	if (count >= 1) {
-		stack__top += 1u;
-		stack__entries[stack__top] = references.x;
+	else {
+		stack__entries[stack__top] = replaced;
 	}
 }
 
-fn stack__move_registers(references: vec3u, count: i32) {
-	let above = vec4u(traverse__EMPTY, references.x, select(references.y, references.x, count == 2), select(select(references.z, references.y, count == 2), references.x, count == 1));
-	let last = stack__last_register();
-	let deepest = select(select(last.y, last.z, count == 2), last.w, count == 1);
-	loops__is_stack_full |= (count > 0) & (deepest != traverse__EMPTY);
-	let m0 = stack__moved(above, stack__s0, stack__s1, count);
+fn stack__move_registers(pushed: u32, replaced: u32, count: i32) {
+	loops__is_stack_full |= (count > 0) & (stack__last_register().w != traverse__EMPTY);
+	stack__s0.x = replaced;
+	let m0 = stack__moved(vec4u(pushed), stack__s0, stack__s1, count);
 	var m1: vec4u;
 	if (bindings__STACK_REGISTERS > 1u) {
 		m1 = stack__moved(stack__s0, stack__s1, stack__s2, count);
@@ -2549,15 +2566,7 @@ fn stack__move_registers(references: vec3u, count: i32) {
 	}
 	var m5: vec4u;
 	if (bindings__STACK_REGISTERS > 5u) {
-		m5 = stack__moved(stack__s4, stack__s5, stack__s6, count);
-	}
-	var m6: vec4u;
-	if (bindings__STACK_REGISTERS > 6u) {
-		m6 = stack__moved(stack__s5, stack__s6, stack__s7, count);
-	}
-	var m7: vec4u;
-	if (bindings__STACK_REGISTERS > 7u) {
-		m7 = stack__moved(stack__s6, stack__s7, vec4u(traverse__EMPTY), count);
+		m5 = stack__moved(stack__s4, stack__s5, vec4u(traverse__EMPTY), count);
 	}
 	stack__s0 = m0;
 	if (bindings__STACK_REGISTERS > 1u) {
@@ -2574,12 +2583,6 @@ fn stack__move_registers(references: vec3u, count: i32) {
 	}
 	if (bindings__STACK_REGISTERS > 5u) {
 		stack__s5 = m5;
-	}
-	if (bindings__STACK_REGISTERS > 6u) {
-		stack__s6 = m6;
-	}
-	if (bindings__STACK_REGISTERS > 7u) {
-		stack__s7 = m7;
 	}
 }
 
@@ -2599,20 +2602,65 @@ fn stack__last_register() -> vec4u {
 	if (bindings__STACK_REGISTERS == 5u) {
 		return stack__s4;
 	}
-	if (bindings__STACK_REGISTERS == 6u) {
-		return stack__s5;
-	}
-	if (bindings__STACK_REGISTERS == 7u) {
-		return stack__s6;
-	}
-	return stack__s7;
+	return stack__s5;
 }
 
 fn stack__moved(above: vec4u, here: vec4u, below: vec4u, count: i32) -> vec4u {
-	var next = select(here, vec4u(here.yzw, below.x), count < 0);
-	next = select(next, vec4u(above.w, here.xyz), count == 1);
-	next = select(next, vec4u(above.zw, here.xy), count == 2);
-	return select(next, vec4u(above.yzw, here.x), count == 3);
+	let next = select(here, vec4u(here.yzw, below.x), count < 0);
+	return select(next, vec4u(above.w, here.xyz), count > 0);
+}
+
+const node__MISS: u32 = 4294967292u;
+
+const node__WIDENING: i32 = 8;
+
+fn node__bytes(word: u32) -> vec4f {
+	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
+}
+
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, inv: vec3f) -> tracing__Node {
+	let goes_down = inv < vec3f(0.0);
+	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(select(r1.z, r1.w, goes_down.x)), node__bytes(select(r1.w, r1.z, goes_down.x)), node__bytes(select(r2.x, r2.y, goes_down.y)), node__bytes(select(r2.y, r2.x, goes_down.y)), node__bytes(select(r2.z, r2.w, goes_down.z)), node__bytes(select(r2.w, r2.z, goes_down.z)), r0.w & 7u);
+}
+
+fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
+	let shift = b.lo - a.lo;
+	let s = vec4f(fraction);
+	return tracing__Node(a.lo, vec3f(1.0), mix(a.scale.x * a.near_x, b.scale.x * b.near_x + shift.x, s), mix(a.scale.x * a.far_x, b.scale.x * b.far_x + shift.x, s), mix(a.scale.y * a.near_y, b.scale.y * b.near_y + shift.y, s), mix(a.scale.y * a.far_y, b.scale.y * b.far_y + shift.y, s), mix(a.scale.z * a.near_z, b.scale.z * b.near_z + shift.z, s), mix(a.scale.z * a.far_z, b.scale.z * b.far_z + shift.z, s), a.child_count);
+}
+
+fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+	let base = (node.lo - origin) * inv;
+	let step = node.scale * inv;
+	let x0 = bitcast<vec4i>(node.near_x * step.x + base.x);
+	let x1 = bitcast<vec4i>(node.far_x * step.x + base.x);
+	let y0 = bitcast<vec4i>(node.near_y * step.y + base.y);
+	let y1 = bitcast<vec4i>(node.far_y * step.y + base.y);
+	let z0 = bitcast<vec4i>(node.near_z * step.z + base.z);
+	let z1 = bitcast<vec4i>(node.far_z * step.z + base.z);
+	let exist = vec4u(0u, 1u, 2u, 3u) < vec4u(node.child_count);
+	return node__keys_of(max(max(x0, y0), z0), min(min(x1, y1), z1), t_max, exist);
+}
+
+fn node__keys_of(enter: vec4i, leave: vec4i, t_max: f32, exist: vec4<bool>) -> vec4u {
+	let near = max(enter, vec4i(0));
+	let limit = min(leave + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
+	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
+	return select(vec4u(node__MISS), keys, (near <= limit) & exist);
+}
+
+fn node__sort4(keys: vec4u) -> vec4u {
+	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
+	let lowest = min(a.x, a.y);
+	let middle_low = max(a.x, a.y);
+	let middle_high = min(a.z, a.w);
+	let highest = max(a.z, a.w);
+	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+}
+
+fn node__child_of(children: vec4u, key: u32) -> u32 {
+	let first = select(children.xz, children.yw, vec2<bool>((key & 1u) != 0u));
+	return select(first.x, first.y, (key & 2u) != 0u);
 }
 
 var<private> loops__nodes_visited: u32;
@@ -2660,7 +2708,7 @@ fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
 
 fn steps__load_node(index: u32, inv: vec3f) -> tracing__Node {
 	let row = types__NODE_ROWS * index;
-	return node__decode_node(rows__node_row(row), rows__node_row(row + 1u), rows__node_row(row + 2u), rows__node_row(row + 3u), inv);
+	return node__decode_node(rows__node_row(row), rows__node_row(row + 1u), rows__node_row(row + 2u), inv);
 }
 
 fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
@@ -2668,10 +2716,7 @@ fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	loop {
 		let node = traverse__load_current_node(walk.current, walk.at);
 		let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
-		let top = stack__top_of_stack();
-		let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
-		stack__move_stack(next, steps__hit_count(keys) - 1);
-		walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
+		walk.current = stack__next_child(walk.current, keys, steps__hit_count(keys));
 		if (bindings__COUNT_STEPS) {
 			loops__nodes_visited += 1u;
 		}
@@ -2683,8 +2728,8 @@ fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	return walk;
 }
 
-fn steps__hit_count(keys: vec4u) -> i32 {
-	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
+fn steps__hit_count(keys: vec4u) -> u32 {
+	let hits = select(vec4u(0u), vec4u(1u), keys < vec4u(node__MISS));
 	return hits.x + hits.y + hits.z + hits.w;
 }
 
@@ -2693,8 +2738,7 @@ fn steps__through_leaves(before: traverse__Walk) -> traverse__Walk {
 	loop {
 		walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
 		let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
-		walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
-		stack__move_stack(vec3u(traverse__EMPTY), select(0, -1, is_last));
+		walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__taken(is_last), is_last);
 		walk.current = select(walk.current, traverse__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
 		if (bindings__COUNT_STEPS) {
 			loops__primitives_tested += 1u;
@@ -2705,54 +2749,6 @@ fn steps__through_leaves(before: traverse__Walk) -> traverse__Walk {
 		}
 	}
 	return walk;
-}
-
-const node__MISS: u32 = 4294967292u;
-
-const node__WIDENING: i32 = 8;
-
-fn node__bytes(word: u32) -> vec4f {
-	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
-}
-
-fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, inv: vec3f) -> tracing__Node {
-	let goes_down = inv < vec3f(0.0);
-	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(select(r1.z, r1.w, goes_down.x)), node__bytes(select(r1.w, r1.z, goes_down.x)), node__bytes(select(r2.x, r2.y, goes_down.y)), node__bytes(select(r2.y, r2.x, goes_down.y)), node__bytes(select(r2.z, r2.w, goes_down.z)), node__bytes(select(r2.w, r2.z, goes_down.z)), r3);
-}
-
-fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
-	let shift = b.lo - a.lo;
-	let s = vec4f(fraction);
-	return tracing__Node(a.lo, vec3f(1.0), mix(a.scale.x * a.near_x, b.scale.x * b.near_x + shift.x, s), mix(a.scale.x * a.far_x, b.scale.x * b.far_x + shift.x, s), mix(a.scale.y * a.near_y, b.scale.y * b.near_y + shift.y, s), mix(a.scale.y * a.far_y, b.scale.y * b.far_y + shift.y, s), mix(a.scale.z * a.near_z, b.scale.z * b.near_z + shift.z, s), mix(a.scale.z * a.far_z, b.scale.z * b.far_z + shift.z, s), a.children);
-}
-
-fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
-	let base = (node.lo - origin) * inv;
-	let step = node.scale * inv;
-	let x0 = bitcast<vec4i>(node.near_x * step.x + base.x);
-	let x1 = bitcast<vec4i>(node.far_x * step.x + base.x);
-	let y0 = bitcast<vec4i>(node.near_y * step.y + base.y);
-	let y1 = bitcast<vec4i>(node.far_y * step.y + base.y);
-	let z0 = bitcast<vec4i>(node.near_z * step.z + base.z);
-	let z1 = bitcast<vec4i>(node.far_z * step.z + base.z);
-	let hit = node.children != vec4u(0u);
-	return node__keys_of(max(max(x0, y0), z0), min(min(x1, y1), z1), t_max, hit);
-}
-
-fn node__keys_of(enter: vec4i, leave: vec4i, t_max: f32, exist: vec4<bool>) -> vec4u {
-	let near = max(enter, vec4i(0));
-	let limit = min(leave + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
-	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-	return select(vec4u(node__MISS), keys, (near <= limit) & exist);
-}
-
-fn node__sort4(keys: vec4u) -> vec4u {
-	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
-	let lowest = min(a.x, a.y);
-	let middle_low = max(a.x, a.y);
-	let middle_high = min(a.z, a.w);
-	let highest = max(a.z, a.w);
-	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
 fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {

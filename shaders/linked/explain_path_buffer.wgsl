@@ -1417,7 +1417,7 @@ struct tracing__Node {
 	far_y: vec4f,
 	near_z: vec4f,
 	far_z: vec4f,
-	children: vec4u
+	child_count: u32
 }
 
 struct tracing__Cone {
@@ -2297,7 +2297,7 @@ fn section_walk__crossed_at(ray: tracing__Ray, hit: tracing__Hit) -> section_wal
 
 const traverse__EMPTY: u32 = 4294967295u;
 
-const traverse__RETURN: u32 = 4294967294u;
+const traverse__RETURN: u32 = 4294967232u;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
@@ -2727,21 +2727,22 @@ fn steps__load_node(index: u32, inv: vec3f) -> tracing__Node {
 	let row = types__FLOAT_NODE_ROWS * index;
 	let near = select(vec3u(0u), vec3u(1u), inv < vec3f(0.0));
 	let far = vec3u(1u) - near;
-	return node__float_node(rows__node_row(row + near.x), rows__node_row(row + far.x), rows__node_row(row + 2u + near.y), rows__node_row(row + 2u + far.y), rows__node_row(row + 4u + near.z), rows__node_row(row + 4u + far.z), rows__node_row(row + 6u));
+	return node__float_node(rows__node_row(row + near.x), rows__node_row(row + far.x), rows__node_row(row + 2u + near.y), rows__node_row(row + 2u + far.y), rows__node_row(row + 4u + near.z), rows__node_row(row + 4u + far.z));
 }
 
 fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	loop {
 		let node = traverse__load_current_node(walk.current, walk.at);
+		let children = rows__node_row(types__FLOAT_NODE_ROWS * (walk.current & ~types__MOVING) + 6u);
 		let limit = traverse__search_limit(walk.ray, walk.hit);
 		let keys = node__sort4(node__float_child_keys(node, walk.at.ray.origin, walk.at.inv, limit));
 		if (bindings__COUNT_STEPS) {
 			loops__nodes_visited += 1u;
 		}
 		if (keys.x < node__MISS) {
-			steps__push_farther(node.children, keys);
-			walk.current = steps__child(node.children, keys.x);
+			steps__push_farther(children, keys);
+			walk.current = node__child_of(children, keys.x);
 		}
 		else {
 			walk.current = stack__popped();
@@ -2758,17 +2759,12 @@ fn steps__push_farther(children: vec4u, keys: vec4u) {
 	if (keys.y < node__MISS) {
 		if (keys.z < node__MISS) {
 			if (keys.w < node__MISS) {
-				stack__push(steps__child(children, keys.w));
+				stack__push(node__child_of(children, keys.w));
 			}
-			stack__push(steps__child(children, keys.z));
+			stack__push(node__child_of(children, keys.z));
 		}
-		stack__push(steps__child(children, keys.y));
+		stack__push(node__child_of(children, keys.y));
 	}
-}
-
-fn steps__child(children: vec4u, key: u32) -> u32 {
-	let first = select(children.xz, children.yw, vec2<bool>((key & 1u) != 0u));
-	return select(first.x, first.y, (key & 2u) != 0u);
 }
 
 fn steps__through_leaves(before: traverse__Walk) -> traverse__Walk {
@@ -2799,14 +2795,14 @@ const node__MISS: u32 = 4294967292u;
 
 const node__WIDENING: i32 = 8;
 
-fn node__float_node(near_x: vec4u, far_x: vec4u, near_y: vec4u, far_y: vec4u, near_z: vec4u, far_z: vec4u, children: vec4u) -> tracing__Node {
-	return tracing__Node(vec3f(0.0), vec3f(1.0), bitcast<vec4f>(near_x), bitcast<vec4f>(far_x), bitcast<vec4f>(near_y), bitcast<vec4f>(far_y), bitcast<vec4f>(near_z), bitcast<vec4f>(far_z), children);
+fn node__float_node(near_x: vec4u, far_x: vec4u, near_y: vec4u, far_y: vec4u, near_z: vec4u, far_z: vec4u) -> tracing__Node {
+	return tracing__Node(vec3f(0.0), vec3f(1.0), bitcast<vec4f>(near_x), bitcast<vec4f>(far_x), bitcast<vec4f>(near_y), bitcast<vec4f>(far_y), bitcast<vec4f>(near_z), bitcast<vec4f>(far_z), 4u);
 }
 
 fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
 	let shift = b.lo - a.lo;
 	let s = vec4f(fraction);
-	return tracing__Node(a.lo, vec3f(1.0), mix(a.scale.x * a.near_x, b.scale.x * b.near_x + shift.x, s), mix(a.scale.x * a.far_x, b.scale.x * b.far_x + shift.x, s), mix(a.scale.y * a.near_y, b.scale.y * b.near_y + shift.y, s), mix(a.scale.y * a.far_y, b.scale.y * b.far_y + shift.y, s), mix(a.scale.z * a.near_z, b.scale.z * b.near_z + shift.z, s), mix(a.scale.z * a.far_z, b.scale.z * b.far_z + shift.z, s), a.children);
+	return tracing__Node(a.lo, vec3f(1.0), mix(a.scale.x * a.near_x, b.scale.x * b.near_x + shift.x, s), mix(a.scale.x * a.far_x, b.scale.x * b.far_x + shift.x, s), mix(a.scale.y * a.near_y, b.scale.y * b.near_y + shift.y, s), mix(a.scale.y * a.far_y, b.scale.y * b.far_y + shift.y, s), mix(a.scale.z * a.near_z, b.scale.z * b.near_z + shift.z, s), mix(a.scale.z * a.far_z, b.scale.z * b.far_z + shift.z, s), a.child_count);
 }
 
 fn node__float_child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
@@ -2837,6 +2833,11 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	let middle_high = min(a.z, a.w);
 	let highest = max(a.z, a.w);
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+}
+
+fn node__child_of(children: vec4u, key: u32) -> u32 {
+	let first = select(children.xz, children.yw, vec2<bool>((key & 1u) != 0u));
+	return select(first.x, first.y, (key & 2u) != 0u);
 }
 
 fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {

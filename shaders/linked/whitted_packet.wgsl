@@ -3023,7 +3023,7 @@ fn shared_stack__popped(stack: shared_stack__Stack) -> shared_stack__Stack {
 
 const traverse__EMPTY: u32 = 4294967295u;
 
-const traverse__RETURN: u32 = 4294967294u;
+const traverse__RETURN: u32 = 4294967232u;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 

@@ -4,7 +4,7 @@ use crate::reference::compare::{assert_none, check_same_bits, open_gpu, render};
 use crate::reference::scenes::{self, Build, Random};
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DMat3, DQuat, DVec3, UVec2, Vec3, dvec3};
-use glimray::bvh::{self, Aabb, Bvh, Child, Limits};
+use glimray::bvh::{self, Aabb, Bvh, Child, Limits, StackNeed};
 use glimray::image::Image;
 use glimray::layout::{
     LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, PackedShape, SHAPE, SHAPE_BOX,
@@ -174,21 +174,26 @@ fn check_tree(bvh: &Bvh, boxes: &[Aabb], groups: &[u8]) -> Result<(), String> {
     let need = deepest_stack(bvh);
     if bvh.stack_need != need {
         return Err(format!(
-            "stack_need is {}, a walk takes {need}",
+            "stack_need is {:?}, a walk takes {need:?}",
             bvh.stack_need
         ));
     }
     Ok(())
 }
 
-/// The largest stack size when a traversal visits every child of every node, over all orders of siblings:
-/// each child is tried first, with its siblings on the stack.
-fn deepest_stack(bvh: &Bvh) -> usize {
-    let mut deepest = 1;
-    let mut open = vec![(0, 1)];
-    while let Some((index, waiting)) = open.pop() {
+/// The largest stack size when a traversal visits every child of every node, over all orders of siblings: each child is tried
+/// first, with its siblings on the stack, or their parent.
+fn deepest_stack(bvh: &Bvh) -> StackNeed {
+    let empty = StackNeed {
+        references: 1,
+        nodes: 0,
+    };
+    let mut deepest = empty;
+    let mut open = vec![(0, empty)];
+    while let Some((index, mut waiting)) = open.pop() {
         let children: &[(Aabb, Child)] = &bvh.nodes[index].children;
-        let waiting = waiting + children.len().saturating_sub(1);
+        waiting.references += children.len().saturating_sub(1);
+        waiting.nodes += usize::from(children.len() > 1);
         deepest = deepest.max(waiting);
         for (_, child) in children {
             if let Child::Node(below) = child {
@@ -204,10 +209,10 @@ fn every_input_gives_a_sound_tree() {
     assert_none(inputs().into_iter().map(|(name, boxes)| {
         let groups: Vec<u8> = (0..boxes.len()).map(|i| u8::from(i % 3 == 0)).collect();
         let bvh = bvh::build(&boxes, &groups, 2, LIMITS);
-        let fits = bvh.stack_need <= LIMITS.stack_size;
+        let fits = bvh.stack_need.references <= LIMITS.stack_size;
         let checked = check_tree(&bvh, &boxes, &groups).and(
             fits.then_some(())
-                .ok_or(format!("needs a stack of {}", bvh.stack_need)),
+                .ok_or(format!("needs a stack of {:?}", bvh.stack_need)),
         );
         checked.map_err(|why| format!("{name}: {why}"))
     }));
@@ -224,14 +229,14 @@ fn the_deep_parts_of_a_tree_are_balanced_for_a_small_stack() {
         };
         bvh::build(&boxes, &groups, 1, limits)
     };
-    let need = with(usize::MAX).stack_need;
+    let need = with(usize::MAX).stack_need.references;
     assert!(need > 40, "this input is meant to be deep, it needs {need}");
     assert_none((20..=need).map(|stack_size| {
         let tree = with(stack_size);
         check_tree(&tree, &boxes, &groups)?;
-        match tree.stack_need <= stack_size {
+        match tree.stack_need.references <= stack_size {
             true => Ok(()),
-            false => Err(format!("{} of {stack_size}", tree.stack_need)),
+            false => Err(format!("{:?} of {stack_size}", tree.stack_need)),
         }
     }));
 }

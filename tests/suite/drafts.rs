@@ -8,7 +8,7 @@ use crate::support::PATIENCE;
 use crate::trees::{boxes_of, build, cost, height_field, shuffled};
 use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3};
 use glimray::bvh::linear::{self, LinearBvh};
-use glimray::bvh::{Aabb, Child, threads};
+use glimray::bvh::{Aabb, Child, StackNeed, threads};
 use glimray::pack::{self, DRAFT_FROM, PackedScene};
 use glimray::render::{ExecutionPolicy, Integrator, RayQuery, RenderSettings, Slicing, Tone};
 use glimray::scene::{Deformation, Scene};
@@ -41,12 +41,17 @@ fn check(tree: &LinearBvh, count: usize) -> Result<(), String> {
     let mut seen = vec![0; count];
     let mut reached = vec![0; tree.nodes.len()];
     // A ray that hits every child and follows any one of them leaves its siblings on the stack, above the entry that marks the
-    // empty stack.
-    let (mut open, mut most) = (vec![(0, 1)], 1);
-    while let Some((index, waiting)) = open.pop() {
+    // empty stack, or their parent.
+    let empty = StackNeed {
+        references: 1,
+        nodes: 0,
+    };
+    let (mut open, mut most) = (vec![(0, empty)], empty);
+    while let Some((index, mut waiting)) = open.pop() {
         reached[index] += 1;
         let children: Vec<_> = tree.nodes[index].iter().flatten().collect();
-        let waiting = waiting + children.len() - 1;
+        waiting.references += children.len() - 1;
+        waiting.nodes += usize::from(children.len() > 1);
         most = most.max(waiting);
         for child in children {
             match *child {
@@ -73,7 +78,7 @@ fn check(tree: &LinearBvh, count: usize) -> Result<(), String> {
     ) {
         (Some(index), _) => Err(format!("box {index} is in {} leaves", seen[index])),
         (_, Some(index)) => Err(format!("node {index} is reached {} times", reached[index])),
-        _ if most != tree.stack_need => Err(format!("{} entries, {most} needed", tree.stack_need)),
+        _ if most != tree.stack_need => Err(format!("{:?}, {most:?} needed", tree.stack_need)),
         _ => Ok(()),
     }
 }
@@ -87,7 +92,7 @@ fn linear_trees_have_every_box_in_one_leaf() {
             None => Err("no tree".into()),
             Some(tree) => check(tree, boxes.len()),
         };
-        let need = tree.map_or(0, |tree| tree.stack_need);
+        let need = tree.map_or(0, |tree| tree.stack_need.references);
         let is_refused = need == 0 || linear::build(&boxes, need - 1).is_none();
         let refused = match is_refused {
             true => Ok(()),

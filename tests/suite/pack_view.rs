@@ -6,7 +6,7 @@ use crate::{
 };
 use glam::{DAffine3, DMat3, DQuat, DVec3, UVec2, Vec3, dvec3};
 use glimray::{
-    bvh::{self, Aabb},
+    bvh::{self, Aabb, StackNeed},
     layout::{INSTANCE, LEAF, MOVING, PackedInstance, PackedKey, PackedNode, STACK_SIZE},
     pack::{self, PackedScene, PackedView},
     scene::{
@@ -14,6 +14,7 @@ use glimray::{
         LightProperty, Mesh, Node, NodeProperty, Scene, Shape, Target, Track, Values,
     },
 };
+use std::sync::Arc;
 
 fn track(index: usize, property: NodeProperty, values: Vec<DVec3>) -> Track {
     let last = (values.len() - 1) as f64;
@@ -495,16 +496,18 @@ fn the_same_frames_are_packed_to_the_same_bytes() {
     assert!(still(&packed).parts() == still(&again).parts());
 }
 
-/// Maximum number of stack entries of a traversal from this reference: at each node all children but one.
-fn need(reference: u32, children: &impl Fn(u32) -> Vec<u32>) -> usize {
+/// The most entries on the stack of a traversal from this reference: at each node all children but one, or the node if it has
+/// several.
+fn need(reference: u32, children: &impl Fn(u32) -> Vec<u32>) -> StackNeed {
     if reference & LEAF != 0 {
-        return 0;
+        return StackNeed::default();
     }
     let children_here = children(reference);
-    let deepest = (children_here.iter().map(|&child| need(child, children)))
-        .max()
-        .unwrap_or(0);
-    children_here.len().saturating_sub(1) + deepest
+    let mut deepest = (children_here.iter().map(|&child| need(child, children)))
+        .fold(StackNeed::default(), StackNeed::max);
+    deepest.references += children_here.len().saturating_sub(1);
+    deepest.nodes += usize::from(children_here.len() > 1);
+    deepest
 }
 
 #[test]
@@ -526,7 +529,9 @@ fn traversal_of_both_levels_fits_on_the_stack() {
         alone: None,
         stack_size: usize::MAX,
     };
-    let chain = bvh::build(&boxes, &vec![0; boxes.len()], 1, limits).stack_need;
+    let chain = bvh::build(&boxes, &vec![0; boxes.len()], 1, limits)
+        .stack_need
+        .references;
     assert!(chain > 40, "{chain} is no chain");
     let mut mesh = Mesh::default();
     for i in -110..0 {
@@ -569,14 +574,43 @@ fn traversal_of_both_levels_fits_on_the_stack() {
     };
     let inner = (behind.instances.iter())
         .map(|instance| need(instance.root, &references))
-        .max()
-        .expect("an instance");
+        .fold(StackNeed::default(), StackNeed::max);
     let outer = need(behind.root, &references);
+    // Baked meshes are below the TLAS, and nothing returns from them.
+    let in_tlas = |reference: u32| match reference < behind.first_node {
+        true => Vec::new(),
+        false => references(reference),
+    };
+    let above = need(behind.root, &in_tlas);
     // At the bottom is the end marker, between the levels the return marker, and the last store of a step
     // writes one entry beyond the top.
-    let all = 1 + outer + 1 + inner + 1;
+    let all = 1 + outer.references + 1 + inner.references + 1;
     assert!(all <= STACK_SIZE as usize, "{all} entries");
-    // Registers hold all but the end marker, which counts as no entry.
-    let kept = packed.stack_entries(&view);
-    assert!(kept >= outer + 1 + inner, "{kept} entries");
+    let kept = packed.stack_need(&view);
+    assert!(kept.references >= all - 2, "{kept:?}");
+    let nodes = outer.nodes.max(above.nodes + 1 + inner.nodes);
+    assert!(kept.nodes >= nodes, "{kept:?}, {nodes} nodes");
+}
+
+/// Meshes that are too large for the tree of small ones have trees of their own, under one tree above all.
+#[test]
+fn the_stack_holds_the_way_through_the_tree_above_large_meshes() {
+    let mut scene = scenes::empty();
+    let ball = Arc::new(scenes::ball(UVec2::new(192, 96), 0));
+    for i in 0..40 {
+        scene.add_mesh(
+            ball.clone(),
+            DAffine3::from_translation(DVec3::X * 4.0 * f64::from(i)),
+        );
+    }
+    let packed = pack::scene_with(&scene, usize::MAX).expect("packed");
+    assert_eq!(packed.instance_count(), 0);
+    let view = packed.frame(&scene.frame(0.0)).expect("a frame");
+    let references = |reference: u32| -> Vec<u32> {
+        let node = &packed.nodes[reference as usize];
+        children(node).into_iter().map(|(_, child)| child).collect()
+    };
+    let (needed, kept) = (need(0, &references), packed.stack_need(&view));
+    assert!(kept.references >= needed.references, "{kept:?}, {needed:?}");
+    assert!(kept.nodes >= needed.nodes, "{kept:?}, {needed:?}");
 }

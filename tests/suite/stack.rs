@@ -8,6 +8,7 @@ use crate::reference::compare::{assert_none, check_same_bits, open_gpu, sized, s
 use crate::reference::scenes;
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, vec3};
+use glimray::bvh::StackNeed;
 use glimray::image::Image;
 use glimray::layout::{INSTANCE, LEAF, LEAF_FIRST_MASK, PackedInstance, PackedNode};
 use glimray::pack::{PackedScene, PackedView};
@@ -51,12 +52,12 @@ fn chain(count: i32, copies: i32) -> Scene {
 }
 
 /// The entries that a ray along x has on its stack when it reaches its first triangle: at each node those of all children
-/// but the nearest, and one that returns from an instance.
-fn entries_on_the_way(packed: &PackedScene, view: &PackedView) -> usize {
+/// but the nearest, or the node, and one that returns from an instance.
+fn entries_on_the_way(packed: &PackedScene, view: &PackedView) -> StackNeed {
     let [nodes, instances, ..] = view.node_parts();
     let nodes: Vec<PackedNode> = bytemuck::pod_collect_to_vec(nodes);
     let instances: Vec<PackedInstance> = bytemuck::pod_collect_to_vec(instances);
-    let mut entries = 0;
+    let mut entries = StackNeed::default();
     let mut reference = match packed.instance_count() {
         0 => 0,
         _ => view.frame.root,
@@ -67,11 +68,13 @@ fn entries_on_the_way(packed: &PackedScene, view: &PackedView) -> usize {
             None => &packed.nodes[reference as usize],
         };
         let all = children(node);
-        entries += all.len() - 1;
+        entries.references += all.len() - 1;
+        entries.nodes += usize::from(all.len() > 1);
         let nearest = all.iter().min_by(|a, b| a.0[0].x.total_cmp(&b.0[0].x));
         reference = nearest.expect("a child").1;
         if reference >= INSTANCE {
-            entries += 1;
+            entries.references += 1;
+            entries.nodes += 1;
             reference = instances[(reference & LEAF_FIRST_MASK) as usize].root;
         }
         if reference & LEAF != 0 {
@@ -102,9 +105,9 @@ fn steps(packed: &Arc<PackedScene>, view: &PackedView, policy: ExecutionPolicy) 
     (picture, renderer.stats().submissions)
 }
 
-/// Chains of 1 to 59 triangles as they are packed.
+/// Chains of 1 to 89 triangles as they are packed.
 fn chains(copies: i32, most_baked: usize) -> impl Iterator<Item = (Arc<PackedScene>, PackedView)> {
-    (1..60).map(move |count| {
+    (1..90).map(move |count| {
         let scene = chain(count, copies);
         let packed = packed(&scene, most_baked);
         let view = packed.frame(&scene.frame(0.0)).expect("a view");
@@ -116,43 +119,47 @@ fn chains(copies: i32, most_baked: usize) -> impl Iterator<Item = (Arc<PackedSce
 fn registers_hold_the_deepest_way_through_a_tree() {
     let mut results = Vec::new();
     for (copies, most_baked, registers) in [
-        (1, usize::MAX, 1..=8),
+        (1, usize::MAX, 1..=4),
         // Trees over instances have all registers.
-        (20, 0, 8..=8),
+        (40, 0, 6..=6),
     ] {
         for registers in registers {
             // The chain that fills most of the registers, of those for which they are just enough.
             let fits = |(packed, view): &(Arc<PackedScene>, PackedView)| {
-                packed.stack_entries(view).div_ceil(4) == registers
+                packed.stack_need(view).nodes.div_ceil(4) == registers
             };
-            let entries =
-                |(packed, view): &(Arc<PackedScene>, PackedView)| entries_on_the_way(packed, view);
+            let entries = |(packed, view): &(Arc<PackedScene>, PackedView)| {
+                entries_on_the_way(packed, view).nodes
+            };
             let deepest = chains(copies, most_baked).filter(fits).max_by_key(entries);
             let (packed, view) = deepest.expect("a chain");
             let entries = entries_on_the_way(&packed, &view);
-            let name = format!("{registers} registers, {copies} copies, {entries} entries");
-            assert!(entries > 4 * (registers - 1), "{name}");
+            let name = format!("{registers} registers, {copies} copies, {entries:?}");
+            assert!(entries.nodes > 4 * (registers - 1), "{name}");
             let [expected, found] = [Fetch::Buffer, Fetch::Image]
                 .map(|fetch| steps(&packed, &view, policy(fetch, Stack::Deepest)).0);
-            // Every entry is visited in the end.
-            assert!(expected.pixels[0][0] > entries as f32, "{name}");
+            // Every reference is visited in the end.
+            assert!(expected.pixels[0][0] > entries.references as f32, "{name}");
             results.push(check_same_bits(&name, &expected, &found));
         }
     }
     assert_none(results);
 }
 
-/// Rays usually need at most 24 entries.
+/// Rays through instances usually need at most 24 references, or 20 nodes.
 #[test]
 fn rays_that_need_more_entries_than_usual_are_traced_again() {
     let mut results = Vec::new();
     // With an array in the end, or with all registers.
-    for bound in [33..=60, 29..=32] {
+    for bound in [25..=96, 21..=24] {
         let is_deep = |(packed, view): &(Arc<PackedScene>, PackedView)| {
-            bound.contains(&packed.stack_entries(view)) && entries_on_the_way(packed, view) > 24
+            let entries = entries_on_the_way(packed, view);
+            bound.contains(&packed.stack_need(view).nodes)
+                && entries.nodes > 20
+                && entries.references > 24
         };
-        let (packed, view) = chains(1, usize::MAX).find(is_deep).expect("a chain");
-        let name = format!("{} entries", entries_on_the_way(&packed, &view));
+        let (packed, view) = chains(40, 0).find(is_deep).expect("a chain");
+        let name = format!("{:?}", entries_on_the_way(&packed, &view));
         let of = |policy| steps(&packed, &view, policy);
         let (expected, once) = of(policy(Fetch::Buffer, Stack::Deepest));
         for (fetch, host_copy) in [

@@ -65,11 +65,57 @@ pub struct Bvh {
     pub nodes: Vec<WideNode>,
     /// For each group, the indices of its boxes in leaf order.
     pub order: Vec<Vec<u32>>,
-    /// The largest number of entries on a traversal's stack when children are pushed far to near.
-    pub stack_need: usize,
+    /// The most entries on the stack of a walk.
+    pub stack_need: StackNeed,
     /// The number of pairs of boxes that were compared to build it: a measure of time that is the same on every
     /// machine.
     pub work: u64,
+}
+
+/// The most entries on the stack of a walk in which every child of every node on the way is hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StackNeed {
+    /// If entries are references to children, pushed far to near, with one that marks the empty stack.
+    pub references: usize,
+    /// If an entry is a node with all of its children that are still to be visited.
+    pub nodes: usize,
+}
+
+impl StackNeed {
+    /// Below a node: each of its `child_count` children may be the first.
+    fn below(child_count: usize, children: impl Iterator<Item = Self>) -> Self {
+        let below = children.fold(Self::default(), Self::max);
+        Self {
+            references: below.references + child_count.saturating_sub(1),
+            nodes: below.nodes + usize::from(child_count > 1),
+        }
+    }
+
+    fn with_end(self) -> Self {
+        Self {
+            references: self.references + 1,
+            ..self
+        }
+    }
+
+    /// The larger number of both.
+    pub fn max(self, other: Self) -> Self {
+        Self {
+            references: self.references.max(other.references),
+            nodes: self.nodes.max(other.nodes),
+        }
+    }
+}
+
+impl std::ops::Add for StackNeed {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            references: self.references + other.references,
+            nodes: self.nodes + other.nodes,
+        }
+    }
 }
 
 /// Constraints on the tree.
@@ -79,7 +125,7 @@ pub struct Limits {
     pub leaf_size: u32,
     /// A group whose boxes are alone in their leaves.
     pub alone: Option<u8>,
-    /// Bound on [`Bvh::stack_need`]. The deepest parts of a tree that exceeds it are rebuilt as balanced ones.
+    /// Bound on the references of [`Bvh::stack_need`]. The deepest parts of a tree that exceeds it are rebuilt as balanced ones.
     pub stack_size: usize,
 }
 
@@ -94,7 +140,7 @@ pub fn build(boxes: &[Aabb], groups: &[u8], group_count: usize, limits: Limits) 
     let mut bvh = collapsed(&tree);
     // Usually a step down the binary tree takes one stack entry, in the worst case three.
     let mut height = limits.stack_size as u32;
-    while bvh.stack_need > limits.stack_size && height > 0 {
+    while bvh.stack_need.references > limits.stack_size && height > 0 {
         bvh = collapsed(&binary::limit_height(boxes, &tree.nodes, height));
         height = height * 3 / 4;
     }

@@ -7,7 +7,8 @@ mod tags;
 
 pub use tags::*;
 
-/// A BVH node in the encoding that the shader's `decode_node` reads: four rows of four words.
+/// A BVH node in the encoding that the shader's `decode_node` reads, three rows of four words, and its references to children in a
+/// fourth.
 pub type PackedNode = [u32; 16];
 /// A BVH node for `float_node`: for each axis the lower, then the upper planes of four children, as `f32`; then references.
 pub type FloatNode = [u32; 28];

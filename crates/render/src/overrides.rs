@@ -196,7 +196,7 @@ overrides! {
         // Bit k is set if the BVH contains a shape of kind k.
         SHAPE_KINDS: u32 = features.shape_kinds;
         HAS_INSTANCES: bool = features.instances;
-        // The number of registers of the stack of the walk through a tree, 0 to 8; 0 for an array.
+        // The number of registers of the stack of the walk through a tree, 0 to 6; 0 for an array.
         STACK_REGISTERS: u32 = stack_registers(scene, view, stack);
         // Whether SHORT_STACK_SIZE entries are enough for the stack of the walk through a tree.
         SHORT_STACK: bool = has_short_stack(scene, view);
@@ -308,36 +308,25 @@ pub fn of_tone(tone: &PackedTone) -> Overrides {
     [curves(tone), VIEW(tone.view), rows].concat()
 }
 
-/// The registers, of four entries each, that hold the stack of the portable walk on software adapters; 0 if so many are
-/// slower than an array. Trees over instances differ between frames, and one kernel is for all of them.
+/// The registers, of four entries each, that hold the stack of the portable walk on software adapters; 0 for an array, if that
+/// many are not enough. Trees over instances differ between frames, and one kernel is for all of them.
 fn stack_registers(scene: &PackedScene, view: &PackedView, stack: Stack) -> u32 {
-    const MOST: usize = 8;
-    /// A bound above which rays seldom need more than half of it, and registers that are enough for most scenes below.
-    const DEEP: usize = 40;
-    const FEW: usize = 5;
-    let bound = scene.stack_entries(view);
-    let all = match scene.features.instances {
-        true => bound.div_ceil(4).max(MOST),
-        false => bound.div_ceil(4).max(1),
+    const MOST: usize = 6;
+    const USUAL_OVER_INSTANCES: usize = 5;
+    let all = scene.stack_need(view).nodes.div_ceil(4).max(1);
+    let count = match (stack, scene.features.instances) {
+        (Stack::Usual, true) => USUAL_OVER_INSTANCES,
+        (Stack::Usual, false) => all.min(MOST),
+        (Stack::Deepest, _) if all > MOST => 0,
+        (Stack::Deepest, true) => MOST,
+        (Stack::Deepest, false) => all,
     };
-    let usual = match scene.features.instances || bound > DEEP {
-        true => FEW + 1,
-        // Rays miss most boxes, the more of them the deeper the tree: they need two thirds of a bound of 12 at most, and half
-        // of one of 30.
-        false => (bound.div_ceil(6))
-            .min((bound + 8).div_ceil(10))
-            .clamp(1, FEW),
-    };
-    match stack {
-        Stack::Usual => usual.min(all) as u32,
-        Stack::Deepest if all > MOST => 0,
-        Stack::Deepest => all as u32,
-    }
+    count as u32
 }
 
 /// Whether the smaller array of `scene/buffer/stack.wesl` is enough. Trees over instances differ between frames, as above.
 fn has_short_stack(scene: &PackedScene, view: &PackedView) -> bool {
-    !scene.features.instances && scene.stack_entries(view) <= SHORT_STACK_SIZE as usize
+    !scene.features.instances && scene.stack_need(view).references <= SHORT_STACK_SIZE as usize
 }
 
 /// The value that all lights have in common.

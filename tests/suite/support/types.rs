@@ -49,7 +49,7 @@ shader_struct! {
         pub far_y: [f32; 4],
         pub near_z: [f32; 4],
         pub far_z: [f32; 4],
-        pub children: [u32; 4],
+        pub child_count: u32,
     }
 }
 

@@ -3,7 +3,7 @@
 //! are compared; rays visit a tenth more nodes in meshes of even triangles, and far more where sizes differ.
 
 use super::{
-    Aabb, Child,
+    Aabb, Child, StackNeed,
     morton::{CODE_BITS, Cells},
     threads,
 };
@@ -28,10 +28,10 @@ pub struct LinearBvh {
     /// The indices of the boxes in leaf order.
     pub order: Vec<u32>,
     /// As [`super::Bvh::stack_need`].
-    pub stack_need: usize,
+    pub stack_need: StackNeed,
 }
 
-/// Builds a tree; `None` for less than two boxes, or if the tree needs more than `stack_size` entries.
+/// Builds a tree; `None` for less than two boxes, or if the tree needs a stack of more than `stack_size` references.
 pub fn build(boxes: &[Aabb], stack_size: usize) -> Option<LinearBvh> {
     if boxes.len() < 2 {
         return None;
@@ -47,7 +47,7 @@ pub fn build(boxes: &[Aabb], stack_size: usize) -> Option<LinearBvh> {
     });
     let nodes = joined(top, &subtrees);
     let stack_need = stack_need(&nodes);
-    (stack_need <= stack_size).then(|| LinearBvh {
+    (stack_need.references <= stack_size).then(|| LinearBvh {
         order: threads::collect(boxes.len(), |place| keys.index(keys.list[place])),
         nodes,
         stack_need,
@@ -196,15 +196,14 @@ fn moved(children: &Children, offset: u32) -> Children {
 }
 
 /// See [`super::Bvh::stack_need`].
-fn stack_need(nodes: &[Children]) -> usize {
-    let mut need = vec![0usize; nodes.len()];
+fn stack_need(nodes: &[Children]) -> StackNeed {
+    let mut need = vec![StackNeed::default(); nodes.len()];
     for (index, children) in nodes.iter().enumerate().rev() {
         let below = children.iter().flatten().map(|child| match child {
             Child::Node(index) => need[*index as usize],
-            Child::Leaf { .. } => 0,
+            Child::Leaf { .. } => StackNeed::default(),
         });
-        need[index] = below.max().unwrap_or(0) + children.iter().flatten().count() - 1;
+        need[index] = StackNeed::below(children.iter().flatten().count(), below);
     }
-    // An entry marks the empty stack.
-    need[0] + 1
+    need[0].with_end()
 }

@@ -1,7 +1,7 @@
 //! Collapses a binary tree to nodes of up to four children.
 
 use super::{
-    Aabb, Bvh, Limits,
+    Aabb, Bvh, Limits, StackNeed,
     binary::{Kind, Node, Tree},
     threads,
 };
@@ -152,7 +152,7 @@ impl Plan {
 pub fn collapse(tree: &Tree, groups: &[u8], group_count: usize, limits: Limits) -> Bvh {
     let nodes = &tree.nodes[..];
     let mut top = Piece::new(nodes.len() / 4, group_count);
-    let mut stack = 0;
+    let mut stack = StackNeed::default();
     if !nodes.is_empty() {
         let plans = plans(tree, groups, limits);
         let below = top.grow(nodes, &plans, 0, &tree.parts);
@@ -170,8 +170,7 @@ pub fn collapse(tree: &Tree, groups: &[u8], group_count: usize, limits: Limits) 
         top.append(pieces);
     }
     Bvh {
-        // An entry marks the empty stack.
-        stack_need: stack + 1,
+        stack_need: stack.with_end(),
         nodes: top.nodes,
         order: top.order,
         work: 0,
@@ -238,7 +237,7 @@ impl Piece {
     }
 
     /// Appends pieces, the first node of each in the place of a node that there is.
-    fn append(&mut self, pieces: Vec<(Self, (usize, usize))>) {
+    fn append(&mut self, pieces: Vec<(Self, (usize, StackNeed))>) {
         let mut len = self.nodes.len();
         let mut jobs = Vec::with_capacity(pieces.len());
         for (mut piece, (at, _)) in pieces {
@@ -385,20 +384,18 @@ fn boxes_below(tree: &[Node], root: u32, count: u8) -> impl Iterator<Item = u32>
     boxes.take(count.into())
 }
 
-/// Stack entries when every child of every node on the path is hit: a node with n children leaves n − 1
-/// behind. `known` are places of nodes without children yet, and the entries that these need.
-fn stack_need(nodes: &[WideNode], known: &[(usize, usize)]) -> usize {
-    let mut need = vec![0usize; nodes.len()];
+/// Without an end marker. `known` are places of nodes without children yet, and the entries that these need.
+fn stack_need(nodes: &[WideNode], known: &[(usize, StackNeed)]) -> StackNeed {
+    let mut need = vec![StackNeed::default(); nodes.len()];
     for &(at, known) in known {
         need[at] = known;
     }
     for (i, node) in nodes.iter().enumerate().rev() {
         let below = node.children.iter().map(|(_, child)| match child {
             Child::Node(index) => need[*index as usize],
-            Child::Leaf { .. } => 0,
+            Child::Leaf { .. } => StackNeed::default(),
         });
-        let own = below.max().unwrap_or(0) + node.children.len().saturating_sub(1);
-        need[i] = need[i].max(own);
+        need[i] = need[i].max(StackNeed::below(node.children.len(), below));
     }
     need[0]
 }

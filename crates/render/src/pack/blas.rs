@@ -11,7 +11,7 @@ use super::{
     triangle_pieces,
 };
 use crate::{
-    bvh::{Aabb, Child, threads},
+    bvh::{Aabb, Child, StackNeed, threads},
     layout::{
         LEAF, MOVING, PackedNode, PackedShape, PackedTangent, PackedTriangle, PackedVertex, SHAPE,
         leaf_reference,
@@ -35,8 +35,8 @@ pub struct Blas {
     pub vertices: Arc<[PackedVertex]>,
     /// One for each vertex; empty if there is none.
     pub tangents: Arc<[PackedTangent]>,
-    /// Maximum number of stack entries during traversal.
-    pub stack_need: usize,
+    /// The most entries on the stack of a walk.
+    pub stack_need: StackNeed,
     /// Whether its topology is a draft.
     pub is_draft: bool,
     /// How often each node is in `nodes`, in a row: more than once if the mesh moves between several positions.

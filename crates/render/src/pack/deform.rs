@@ -12,7 +12,10 @@ use super::{
     topology::{Fit, Topology},
     trees::Trees,
 };
-use crate::layout::{PackedNode, PackedShape, PackedTangent, PackedTriangle, PackedVertex};
+use crate::{
+    bvh::StackNeed,
+    layout::{PackedNode, PackedShape, PackedTangent, PackedTriangle, PackedVertex},
+};
 use bytemuck::cast_slice;
 use glam::{DVec3, Vec3};
 use glimray_scene::{Deformation, Frame, Pose, Scene};
@@ -217,10 +220,10 @@ impl Deformed {
         counts.sum()
     }
 
-    /// Maximum number of stack entries of a tree.
-    pub fn stack_need(&self) -> usize {
+    /// The most entries on the stack of a walk through a tree.
+    pub fn stack_need(&self) -> StackNeed {
         let needs = self.trees.iter().map(|tree| tree.blas.stack_need);
-        needs.max().unwrap_or(0)
+        needs.fold(StackNeed::default(), StackNeed::max)
     }
 
     /// The tree that replaces an instanced BLAS.

@@ -9,6 +9,7 @@ use super::{
     material, media,
     tlas::Tlas,
 };
+use crate::bvh::StackNeed;
 use crate::layout::{
     CAMERA_ROWS, CLUSTER_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MATERIAL_THIN,
     MOVING, NODE_ROWS, NONE, PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial,
@@ -59,8 +60,8 @@ pub struct PackedView {
 }
 
 impl PackedScene {
-    /// Maximum number of stack entries of a walk through the trees of a view of this scene.
-    pub fn stack_entries(&self, view: &PackedView) -> usize {
+    /// The most entries on the stack of a walk through the trees of a view of this scene.
+    pub fn stack_need(&self, view: &PackedView) -> StackNeed {
         self.tlas_source.stack_need.max(view.tlas.stack_need)
     }
 

@@ -157,7 +157,8 @@ pub fn with_float_planes(node: &PackedNode) -> FloatNode {
     words
 }
 
-/// The corner, the step size, and the lower and upper plane of each child.
+/// The corner, the step size, and the lower and upper plane of each child. The lowest three bits of the step along x are the number
+/// of children.
 fn quantize_axis(
     children: &[(Aabb, u32)],
     axis: usize,
@@ -167,6 +168,10 @@ fn quantize_axis(
     let slack = f64::from(hi - lo) * SLACK;
     let base = ((f64::from(lo) - slack) as f32).next_down();
     let scale = (((f64::from(hi) + slack - f64::from(base)) / 255.0) as f32).next_up();
+    let scale = match axis {
+        0 => f32::from_bits(scale.to_bits().next_multiple_of(8) | children.len() as u32),
+        _ => scale,
+    };
     let mut planes = [[0; 2]; 4];
     for (i, (aabb, _)) in children.iter().enumerate() {
         let steps = |plane: f64| (plane - f64::from(base)) / f64::from(scale);

@@ -10,7 +10,7 @@ use super::{
     placement::{Placement, aligned},
 };
 use crate::{
-    bvh::{self, Aabb, Bvh, Child},
+    bvh::{self, Aabb, Bvh, Child, StackNeed},
     layout::{INSTANCE, MOVING, PackedInstance, PackedKey, PackedNode, STACK_SIZE},
 };
 use glam::{DAffine3, DMat3, DVec3};
@@ -27,8 +27,8 @@ pub struct TlasSource {
     pub parts: Vec<(Aabb, u32)>,
     pub blas: Vec<InstancedBlas>,
     pub instances: Vec<Instance>,
-    /// Maximum number of stack entries of any BLAS.
-    pub stack_need: usize,
+    /// The most entries on the stack of a walk through any BLAS.
+    pub stack_need: StackNeed,
 }
 
 /// A packed TLAS.
@@ -42,8 +42,8 @@ pub struct Tlas {
     pub moves: bool,
     /// Index of its first node in the nodes array.
     pub first_node: u32,
-    /// Maximum number of stack entries of a walk through it and a BLAS below, 0 without instances.
-    pub stack_need: usize,
+    /// The most entries on the stack of a walk through it and a BLAS below, 0 without instances.
+    pub stack_need: StackNeed,
     /// The input it was built from: for each instance the transforms to world space over the shutter interval,
     /// one if it does not move; `None` if it is hidden.
     source: Arc<TlasSource>,
@@ -145,7 +145,7 @@ impl Tlas {
         let limits = bvh::Limits {
             leaf_size: 1,
             alone: None,
-            stack_size: limit.saturating_sub(below),
+            stack_size: limit.saturating_sub(below.references),
         };
         let unions: Vec<_> = (boxes.iter())
             .map(|swept| swept.open.union(swept.close))
@@ -153,11 +153,15 @@ impl Tlas {
         // Leaves hold a single box, so the groups do not matter.
         let bvh = bvh::build(&unions, &vec![0; unions.len()], 1, limits);
         let need = bvh.stack_need + below;
-        if need > limit {
+        if need.references > limit {
+            let need = need.references;
             return Err(PackError::TooDeep { need, limit });
         }
-        // With the entry that returns from a BLAS.
-        tlas.stack_need = need + 1;
+        // One entry returns from a BLAS.
+        tlas.stack_need = StackNeed {
+            references: need.references + 1,
+            nodes: need.nodes + 1,
+        };
         tlas.nodes = pack_nodes(&bvh, &boxes, &references, tlas.first_node, tlas.moves);
         Ok(tlas)
     }

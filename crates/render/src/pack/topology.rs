@@ -8,7 +8,7 @@ use super::{
     triangle_pieces::{self, TrianglePiece},
 };
 use crate::{
-    bvh::{self, Aabb, Bvh, Child, linear, threads},
+    bvh::{self, Aabb, Bvh, Child, StackNeed, linear, threads},
     layout::{
         LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, PackedTriangle, SHAPE,
         leaf_reference,
@@ -37,7 +37,7 @@ pub struct Topology {
     order: Vec<u32>,
     /// Pieces, whose triangles are places in `order`.
     pub pieces: Vec<TrianglePiece>,
-    pub stack_need: usize,
+    pub stack_need: StackNeed,
     /// The cost of traversal in the position that it was built for; see [`cost_of`]. Infinite for drafts, whose meshes do
     /// not deform.
     pub cost: f64,

@@ -13,7 +13,7 @@ use super::{
     topology::STACK_BELOW,
 };
 use crate::{
-    bvh::{self, Aabb, Child},
+    bvh::{self, Aabb, Child, StackNeed},
     layout::{PackedNode, PackedTangent, PackedTriangle, PackedVertex, STACK_SIZE},
 };
 use glam::{DAffine3, DVec3};
@@ -85,6 +85,8 @@ pub struct Top {
     pub root: Arc<[PackedNode]>,
     /// The root's descendants, after all other nodes.
     pub nodes: Arc<[PackedNode]>,
+    /// With the trees below; nothing if it has no nodes of its own.
+    stack_need: StackNeed,
     first_node: u32,
 }
 
@@ -262,11 +264,12 @@ impl Trees {
         self.instanced.iter().chain(&self.baked)
     }
 
-    /// Maximum number of stack entries of any BLAS that may be below another tree.
-    pub fn stack_need(&self) -> usize {
+    /// The most entries on the stack of a walk through these trees, without a TLAS.
+    pub fn stack_need(&self) -> StackNeed {
+        let joint = self.joint.blas.stack_need.max(self.top.stack_need);
         (self.own())
             .map(|tree| tree.blas.stack_need)
-            .fold(self.joint.blas.stack_need, usize::max)
+            .fold(joint, StackNeed::max)
     }
 }
 
@@ -319,6 +322,7 @@ impl Top {
                 parts,
                 root: [root].into(),
                 nodes: Arc::default(),
+                stack_need: StackNeed::default(),
                 first_node,
             }))
         };
@@ -340,17 +344,20 @@ impl Top {
         }
         work.top = 1;
         let boxes: Vec<_> = parts.iter().map(|(aabb, _)| *aabb).collect();
-        let below = (trees.iter().map(|tree| tree.stack_need)).fold(0, usize::max);
+        let below =
+            (trees.iter().map(|tree| tree.stack_need)).fold(StackNeed::default(), StackNeed::max);
         let limits = bvh::Limits {
             leaf_size: 1,
             alone: None,
-            stack_size: STACK_ENTRIES - below,
+            stack_size: STACK_ENTRIES - below.references,
         };
         let bvh = bvh::build(&boxes, &vec![0; boxes.len()], 1, limits);
-        let need = bvh.stack_need + below;
-        if need > STACK_ENTRIES {
-            let limit = STACK_ENTRIES;
-            return Err(PackError::TooDeep { need, limit });
+        let stack_need = bvh.stack_need + below;
+        if stack_need.references > STACK_ENTRIES {
+            return Err(PackError::TooDeep {
+                need: stack_need.references,
+                limit: STACK_ENTRIES,
+            });
         }
         let reference = |child: &Child| match *child {
             Child::Node(index) => first_node + index - 1,
@@ -373,6 +380,7 @@ impl Top {
             root,
             nodes,
             parts,
+            stack_need,
             first_node,
         }))
     }
