@@ -794,7 +794,7 @@ fn stack__top_entry() -> u32 {
 }
 
 fn stack__push(sentinel: u32) {
-	stack__move_stack(sentinel, stack__top_entry(), 1);
+	stack__move_stack(sentinel, 1);
 }
 
 fn stack__popped() -> u32 {
@@ -804,7 +804,7 @@ fn stack__popped() -> u32 {
 fn stack__taken(is_taken: bool) -> u32 {
 	let entry = stack__top_entry();
 	let reference = stack__next_of(entry);
-	stack__move_stack(traverse__EMPTY, select(entry, stack__rest_of(entry), is_taken), select(0, -1, is_taken & stack__ends_with(entry)));
+	stack__move_stack(select(entry, stack__rest_of(entry), is_taken), select(0, -1, is_taken & stack__ends_with(entry)));
 	return reference;
 }
 
@@ -816,8 +816,8 @@ fn stack__next_child(node: u32, keys: vec4u, count: u32) -> u32 {
 	let third = select(slots.y, slots.z, count > 2u);
 	let last = select(third, slots.w, count > 3u);
 	let others = (node << stack__SLOT_BITS) | slots.y | (third << 2u) | (last << 4u);
-	let popped = select(0, -1, !goes_down & stack__ends_with(entry));
-	stack__move_stack(others, select(stack__rest_of(entry), entry, goes_down), select(popped, 1, count > 1u));
+	let after = select(select(stack__rest_of(entry), entry, goes_down), others, count > 1u);
+	stack__move_stack(after, select(select(0, -1, !goes_down & stack__ends_with(entry)), 1, count > 1u));
 	return reference;
 }
 
@@ -834,27 +834,22 @@ fn stack__ends_with(entry: u32) -> bool {
 	return ((entry ^ (entry >> 2u)) & 3u) == 0u;
 }
 
-fn stack__move_stack(pushed: u32, replaced: u32, count: i32) {
+fn stack__move_stack(entry: u32, count: i32) {
 	if (bindings__STACK_REGISTERS > 0u) {
-		stack__move_registers(pushed, replaced, count);
+		stack__move_registers(entry, count);
 		return;
 	}
-	if (count > 0) {
-		stack__top += 1u;
-		stack__entries[stack__top] = pushed;
-	}
-	else if (count < 0) {
+	if (count < 0) {
 		stack__top -= select(0u, 1u, stack__entries[stack__top] != traverse__EMPTY);
+		return;
 	}
-	else {
-		stack__entries[stack__top] = replaced;
-	}
+	stack__top += u32(count);
+	stack__entries[stack__top] = entry;
 }
 
-fn stack__move_registers(pushed: u32, replaced: u32, count: i32) {
+fn stack__move_registers(entry: u32, count: i32) {
 	loops__is_stack_full |= (count > 0) & (stack__last_register().w != traverse__EMPTY);
-	stack__s0.x = replaced;
-	let m0 = stack__moved(vec4u(pushed), stack__s0, stack__s1, count);
+	let m0 = stack__moved(vec4u(entry), stack__s0, stack__s1, count);
 	var m1: vec4u;
 	if (bindings__STACK_REGISTERS > 1u) {
 		m1 = stack__moved(stack__s0, stack__s1, stack__s2, count);
@@ -876,6 +871,7 @@ fn stack__move_registers(pushed: u32, replaced: u32, count: i32) {
 		m5 = stack__moved(stack__s4, stack__s5, vec4u(traverse__EMPTY), count);
 	}
 	stack__s0 = m0;
+	stack__s0.x = select(m0.x, entry, count == 0);
 	if (bindings__STACK_REGISTERS > 1u) {
 		stack__s1 = m1;
 	}

@@ -2662,7 +2662,7 @@ fn stack__top_entry() -> u32 {
 }
 
 fn stack__push(sentinel: u32) {
-	stack__move_stack(sentinel, stack__top_entry(), 1);
+	stack__move_stack(sentinel, 1);
 }
 
 fn stack__popped() -> u32 {
@@ -2672,7 +2672,7 @@ fn stack__popped() -> u32 {
 fn stack__taken(is_taken: bool) -> u32 {
 	let entry = stack__top_entry();
 	let reference = stack__next_of(entry);
-	stack__move_stack(traverse__EMPTY, select(entry, stack__rest_of(entry), is_taken), select(0, -1, is_taken & stack__ends_with(entry)));
+	stack__move_stack(select(entry, stack__rest_of(entry), is_taken), select(0, -1, is_taken & stack__ends_with(entry)));
 	return reference;
 }
 
@@ -2684,8 +2684,8 @@ fn stack__next_child(node: u32, keys: vec4u, count: u32) -> u32 {
 	let third = select(slots.y, slots.z, count > 2u);
 	let last = select(third, slots.w, count > 3u);
 	let others = (node << stack__SLOT_BITS) | slots.y | (third << 2u) | (last << 4u);
-	let popped = select(0, -1, !goes_down & stack__ends_with(entry));
-	stack__move_stack(others, select(stack__rest_of(entry), entry, goes_down), select(popped, 1, count > 1u));
+	let after = select(select(stack__rest_of(entry), entry, goes_down), others, count > 1u);
+	stack__move_stack(after, select(select(0, -1, !goes_down & stack__ends_with(entry)), 1, count > 1u));
 	return reference;
 }
 
@@ -2702,27 +2702,22 @@ fn stack__ends_with(entry: u32) -> bool {
 	return ((entry ^ (entry >> 2u)) & 3u) == 0u;
 }
 
-fn stack__move_stack(pushed: u32, replaced: u32, count: i32) {
+fn stack__move_stack(entry: u32, count: i32) {
 	if (bindings__STACK_REGISTERS > 0u) {
-		stack__move_registers(pushed, replaced, count);
+		stack__move_registers(entry, count);
 		return;
 	}
-	if (count > 0) {
-		stack__top += 1u;
-		stack__entries[stack__top] = pushed;
-	}
-	else if (count < 0) {
+	if (count < 0) {
 		stack__top -= select(0u, 1u, stack__entries[stack__top] != traverse__EMPTY);
+		return;
 	}
-	else {
-		stack__entries[stack__top] = replaced;
-	}
+	stack__top += u32(count);
+	stack__entries[stack__top] = entry;
 }
 
-fn stack__move_registers(pushed: u32, replaced: u32, count: i32) {
+fn stack__move_registers(entry: u32, count: i32) {
 	loops__is_stack_full |= (count > 0) & (stack__last_register().w != traverse__EMPTY);
-	stack__s0.x = replaced;
-	let m0 = stack__moved(vec4u(pushed), stack__s0, stack__s1, count);
+	let m0 = stack__moved(vec4u(entry), stack__s0, stack__s1, count);
 	var m1: vec4u;
 	if (bindings__STACK_REGISTERS > 1u) {
 		m1 = stack__moved(stack__s0, stack__s1, stack__s2, count);
@@ -2744,6 +2739,7 @@ fn stack__move_registers(pushed: u32, replaced: u32, count: i32) {
 		m5 = stack__moved(stack__s4, stack__s5, vec4u(traverse__EMPTY), count);
 	}
 	stack__s0 = m0;
+	stack__s0.x = select(m0.x, entry, count == 0);
 	if (bindings__STACK_REGISTERS > 1u) {
 		stack__s1 = m1;
 	}
@@ -5537,28 +5533,36 @@ struct light_tree__LightLeaf {
 }
 
 struct light_tree__Fork {
-	chances: vec2f,
-	powers: vec2f,
-	children: vec2u
+	chances: vec4f,
+	powers: vec4f,
+	children: vec4u
 }
 
 fn light_tree__fork_at(reference: u32, p: vec3f, n: vec3f) -> light_tree__Fork {
-	let first = fetch__load_cluster(reference & types__LIGHT_INDEX_MASK);
-	let second = fetch__load_cluster((reference & types__LIGHT_INDEX_MASK) + 1u);
-	let powers = vec2f(first.power, second.power);
+	let first = reference & types__LIGHT_INDEX_MASK;
+	let c0 = fetch__load_cluster(first);
+	let c1 = fetch__load_cluster(first + 1u);
+	let c2 = fetch__load_cluster(first + 2u);
+	let c3 = fetch__load_cluster(first + 3u);
+	let powers = vec4f(c0.power, c1.power, c2.power, c3.power);
 	var weights = powers;
 	if ((reference & types__LIGHT_BY_POWER) == 0u) {
-		weights = vec2f(light_cluster__cluster_importance(first, p, n), light_cluster__cluster_importance(second, p, n));
+		weights = vec4f(light_cluster__cluster_importance(c0, p, n), light_cluster__cluster_importance(c1, p, n), light_cluster__cluster_importance(c2, p, n), light_cluster__cluster_importance(c3, p, n));
 	}
-	let total = weights.x + weights.y;
-	let chances = select(vec2f(0.0), weights / max_f32(total, 1e-37), total > 0.0);
-	return light_tree__Fork(chances, powers, vec2u(first.child, second.child));
+	let total = (weights.x + weights.y) + (weights.z + weights.w);
+	let chances = select(vec4f(0.0), weights / max_f32(total, 1e-37), total > 0.0);
+	return light_tree__Fork(chances, powers, vec4u(c0.child, c1.child, c2.child, c3.child));
 }
 
-fn light_tree__child_of(node: light_tree__LightLeaf, fork: light_tree__Fork, is_second: bool) -> light_tree__LightLeaf {
-	let chance = select(fork.chances.x, fork.chances.y, is_second);
-	let rest = (node.rest - select(0.0, fork.chances.x, is_second)) / max_f32(chance, 1e-30);
-	return light_tree__LightLeaf(select(fork.children.x, fork.children.y, is_second), node.chance * chance, select(fork.powers.x, fork.powers.y, is_second), clamp_f32(rest, 0.0, 0.99999994));
+fn light_tree__below(node: light_tree__LightLeaf, fork: light_tree__Fork, slot: u32, before: f32) -> light_tree__LightLeaf {
+	let chance = light_tree__component(fork.chances, slot);
+	let rest = (node.rest - before) / max_f32(chance, 1e-30);
+	return light_tree__LightLeaf(node__child_of(fork.children, slot), node.chance * chance, light_tree__component(fork.powers, slot), clamp_f32(rest, 0.0, 0.99999994));
+}
+
+fn light_tree__component(v: vec4f, slot: u32) -> f32 {
+	let pair = select(v.xz, v.yw, vec2<bool>((slot & 1u) != 0u));
+	return select(pair.x, pair.y, (slot & 2u) != 0u);
 }
 
 fn light_tree__is_on_the_way(node: light_tree__LightLeaf) -> bool {
@@ -5569,7 +5573,13 @@ fn light_tree__choose_leaf(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f
 	var node = light_tree__LightLeaf(batch.light_root, 1.0, 0.0, choice);
 	loop {
 		let fork = light_tree__fork_at(node.reference, p, n);
-		node = light_tree__child_of(node, fork, node.rest >= fork.chances.x);
+		let c = fork.chances;
+		let ends = vec3f(c.x, c.x + c.y, c.x + c.y + c.z);
+		let has_later = vec3<bool>(c.y + c.z + c.w > 0.0, c.z + c.w > 0.0, c.w > 0.0);
+		let is_beyond = (vec3f(node.rest) >= ends) & has_later;
+		let steps = select(vec3u(0u), vec3u(1u), is_beyond);
+		let slot = steps.x + steps.y + steps.z;
+		node = light_tree__below(node, fork, slot, light_tree__component(vec4f(0.0, ends), slot));
 		continuing {
 		
 			break if !light_tree__is_on_the_way(node);
@@ -5583,8 +5593,8 @@ fn light_tree__leaf_at(batch: dispatch__Batch, trail: u32, p: vec3f, n: vec3f) -
 	var node = light_tree__LightLeaf(batch.light_root, 1.0, 0.0, 0.0);
 	var left = trail;
 	loop {
-		node = light_tree__child_of(node, light_tree__fork_at(node.reference, p, n), (left & 1u) != 0u);
-		left >>= 1u;
+		node = light_tree__below(node, light_tree__fork_at(node.reference, p, n), left & 3u, 0.0);
+		left >>= 2u;
 		continuing {
 		
 			break if !light_tree__is_on_the_way(node);

@@ -226,7 +226,7 @@ fn float_node_holds_the_rows() {
     assert_eq!(nodes[0], expected);
 }
 
-/// Boxes whose planes all lie a power of two away from the corner of their node at -4, up to 2^-19 along x.
+/// Boxes whose planes all lie a power of two away from the corner of their node at -4, up to 2^-18 along x.
 const GRID: [Steps; 4] = [
     ([2, 1, 2], [8, 4, 4]), // [-2, 4] x [-3, 0] x [-2, 0]
     ([4, 1, 2], [4, 8, 8]), // flat: x = 0
@@ -284,7 +284,7 @@ impl Meeting {
     }
 }
 
-/// The arithmetic of the shader and the expected result are exact.
+/// The arithmetic of the shader and the expected result are exact. A box is a few roundings larger, so a ray beside it may meet it.
 #[test]
 fn boxes_are_met_exactly_for_every_combination_of_signs_and_places() {
     let cases = grid();
@@ -475,6 +475,18 @@ fn a_ray_that_meets_a_box_of_floats_is_not_rejected() {
         verdict.that(format!("{input:?}"), keys[0] != MISS, || "missed");
     }
     verdict.close();
+}
+
+#[test]
+fn child_of_takes_the_slot_of_a_key() {
+    let children = [7u32, 0x8000_0001, 0, 0xf800_0002];
+    let keys = [0, 1, 2, 3, MISS, 0x3f80_0001, 0xffff_fffe, u32::MAX];
+    let found: Vec<u32> = gpu().map(
+        "lib::intersect::node::child_of",
+        &keys.map(|key| (children, key)),
+    );
+    let [a, b, c, d] = children;
+    assert_eq!(found, [a, b, c, d, a, b, c, d]);
 }
 
 #[test]

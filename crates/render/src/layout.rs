@@ -324,7 +324,7 @@ packed! {
         power: f32,
         /// Half of the diagonal of the box, squared.
         radius2: f32,
-        /// The first of two clusters, with [`LIGHT_BY_POWER`] if power alone chooses; or [`LIGHT_LEAF`] with a light, or also
+        /// The first of four clusters, with [`LIGHT_BY_POWER`] if power alone chooses, of which those without lights have 0; or [`LIGHT_LEAF`] with a light, or also
         /// with [`LIGHT_EMITTERS`] a group of emitters. With [`LIGHT_TWO_SIDED`] as the cluster is.
         child: u32,
         /// The axis of the cone: octahedral x and y as signed 16-bit fractions (Meyer and others 2010).
@@ -340,7 +340,7 @@ packed! {
         instance: u32,
         /// The sum of the chances in its group up to it: the last one has 1.
         end: f32,
-        /// The way to its group in the light tree: bit k says whether it is under the second child at depth k.
+        /// The way to its group in the light tree: bits 2k and 2k + 1 say which child it is under at depth k.
         trail: u32,
     }
     /// A camera. The image plane is at distance 1; the centre of the plane is `origin` + `forward`.

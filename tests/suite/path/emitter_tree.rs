@@ -333,8 +333,8 @@ fn leaf_at(view: &PackedView, trail: u32) -> PackedCluster {
     let clusters: &[PackedCluster] = cast_slice(view.node_parts()[7]);
     let (mut leaf, mut left) = (clusters[0], trail);
     while leaf.child & LIGHT_LEAF == 0 {
-        leaf = clusters[(leaf.child & LIGHT_INDEX_MASK) as usize + (left & 1) as usize];
-        left >>= 1;
+        leaf = clusters[(leaf.child & LIGHT_INDEX_MASK) as usize + (left & 3) as usize];
+        left >>= 2;
     }
     leaf
 }

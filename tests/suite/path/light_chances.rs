@@ -77,7 +77,7 @@ pub fn chances(view: &PackedView, p: DVec3, n: DVec3) -> Chances {
     };
     let share = 1.0 - f64::from(view.frame.environment_share);
     let mut open = vec![(view.frame.light_root, share, 0, 0)];
-    while let Some((reference, chance, depth, trail)) = open.pop() {
+    while let Some((reference, chance, bits, trail)) = open.pop() {
         let index = (reference & LIGHT_INDEX_MASK) as usize;
         if reference & LIGHT_LEAF != 0 {
             if reference & LIGHT_EMITTERS == 0 {
@@ -93,20 +93,21 @@ pub fn chances(view: &PackedView, p: DVec3, n: DVec3) -> Chances {
             }
             continue;
         }
-        let pair = &clusters[index..index + 2];
-        let weights = [0, 1].map(|k| match reference & LIGHT_BY_POWER {
-            0 => importance(&pair[k], p, n),
-            _ => pair[k].power.into(),
+        let children = &clusters[index..index + 4];
+        let weights = [0, 1, 2, 3].map(|k| match reference & LIGHT_BY_POWER {
+            _ if children[k].child == 0 => 0.0,
+            0 => importance(&children[k], p, n),
+            _ => children[k].power.into(),
         });
         let total: f64 = weights.iter().sum();
         found.missed += if total > 0.0 { 0.0 } else { chance };
-        for k in 0..2 {
+        for k in (0..4).filter(|&k| children[k].child != 0) {
             let own = match total > 0.0 {
                 true => chance * weights[k] / total,
                 false => 0.0,
             };
-            let trail = trail | (k as u32) << depth;
-            open.push((pair[k].child, own, depth + 1, trail));
+            let trail = trail | (k as u32) << bits;
+            open.push((children[k].child, own, bits + 2, trail));
         }
     }
     found

@@ -6,8 +6,12 @@ use super::{lit_floor, matte, mean, near, paths};
 use crate::explain::{finish, random_pixels, renderer};
 use crate::support::random::Random;
 use crate::support::verdict::Verdict;
+use bytemuck::cast_slice;
 use glam::{DVec3, Vec3, dvec3};
-use glimray::layout::{LIGHT_DISC, LIGHT_RECTANGLE, LIGHT_SPOT, PackedLight};
+use glimray::layout::{
+    LIGHT_DISC, LIGHT_INDEX_MASK, LIGHT_LEAF, LIGHT_RECTANGLE, LIGHT_SPOT, PackedCluster,
+    PackedLight,
+};
 use glimray::pack;
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{Attenuation, Geometry, Light, LightKind, Material, Phong, Scene, Shape};
@@ -83,6 +87,35 @@ pub fn reaches(light: &PackedLight, p: DVec3, n: DVec3) -> bool {
         _ => true,
     };
     is_ahead && to_light.dot(n) > 0.01
+}
+
+/// The most steps from the root to a leaf.
+fn steps_below(clusters: &[PackedCluster], reference: u32) -> u32 {
+    if reference & LIGHT_LEAF != 0 {
+        return 0;
+    }
+    let children = &clusters[(reference & LIGHT_INDEX_MASK) as usize..][..4];
+    let below = children.iter().filter(|child| child.child != 0);
+    1 + (below.map(|child| steps_below(clusters, child.child)))
+        .max()
+        .expect("a child")
+}
+
+/// Each step takes two of 32 bits of a trail. Every lamp is twice as far away as the one before, and there are sixteen of each.
+#[test]
+fn a_light_tree_is_no_deeper_than_its_trails_are_long() {
+    let scene = floor_under(matte(0.5), 16 * 160, |index, _| LightKind::Point {
+        position: DVec3::X * 2f64.powi((index / 16) as i32 - 115),
+    });
+    let packed = pack::scene(&scene).expect("a scene that can be packed");
+    let view = packed.frame(&scene.frame(0.0)).expect("a frame");
+    let clusters: &[PackedCluster] = cast_slice(view.node_parts()[7]);
+    let steps = steps_below(clusters, view.frame.light_root);
+    assert!((10..=16).contains(&steps), "{steps} steps");
+    let all = chances(&view, DVec3::X, DVec3::Y);
+    for (light, &(_, trail)) in view.lights.iter().zip(&all.lamps) {
+        assert_eq!(light.place, trail);
+    }
 }
 
 #[test]

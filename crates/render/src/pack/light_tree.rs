@@ -1,4 +1,4 @@
-//! A tree over many lamps and emitters: paths descend it by the light that each half may send to the point that is lit.
+//! A tree over many lamps and emitters: paths descend it by the light that each child may send to the point that is lit.
 //!
 //! Built by the surface area orientation heuristic (Conty Estevez and Kulla 2018, Importance Sampling of Many Lights with
 //! Adaptive Tree Splitting), with the squared diagonal of a box in place of its surface, so that lights in a row count.
@@ -15,8 +15,11 @@ pub const LEAST_LIGHTS: usize = 4;
 
 const BUCKETS: usize = 12;
 
-/// Maximum depth: the number of bits in a trail.
-const MAX_DEPTH: u32 = 32;
+/// Children of a node, some of which may have no power, and no lights below.
+const WIDTH: usize = 4;
+
+/// The number of bits in a trail, two for each step.
+const TRAIL_BITS: u32 = 32;
 
 /// Lamps that do not fade with distance, and the other lights, each get at least this part of the samples.
 const LEAST_SHARE: f64 = 0.1;
@@ -28,7 +31,7 @@ pub struct LightTree {
     leaves: Vec<Leaf>,
     /// Children are side by side; empty if lights are chosen without a tree. The first is the root.
     pub nodes: Vec<PackedCluster>,
-    /// The way to each leaf: bit k says whether the leaf is under the second child at depth k.
+    /// The way to each leaf: bits 2k and 2k + 1 say which child it is under at depth k.
     trails: Vec<u32>,
 }
 
@@ -91,10 +94,10 @@ impl LightTree {
             (false, true) => tree.add(0, &mut fading, (0, 0), 0),
             (true, _) => tree.add(0, &mut lasting, (0, 0), LIGHT_BY_POWER),
             (false, false) => {
-                tree.nodes.extend([PackedCluster::default(); 2]);
+                tree.nodes.extend([PackedCluster::default(); WIDTH]);
                 tree.nodes[0].child = 1 | LIGHT_BY_POWER;
-                tree.add(1, &mut fading, (1, 0), 0);
-                tree.add(2, &mut lasting, (1, 1), LIGHT_BY_POWER);
+                tree.add(1, &mut fading, (2, 0), 0);
+                tree.add(2, &mut lasting, (2, 1), LIGHT_BY_POWER);
                 tree.share_out(&fading, &lasting);
             }
         }
@@ -143,8 +146,8 @@ impl LightTree {
         }
     }
 
-    /// Fills the node `at`, which is `depth` steps below the root along the bits of `trail`.
-    fn add(&mut self, at: usize, own: &mut [usize], (depth, trail): (u32, u32), flags: u32) {
+    /// Fills the node `at`, to which the first `bits` bits of `trail` lead.
+    fn add(&mut self, at: usize, own: &mut [usize], (bits, trail): (u32, u32), flags: u32) {
         let clusters = own.iter().map(|&leaf| self.leaves[leaf].cluster);
         let Some(cluster) = clusters.reduce(Cluster::union) else {
             return;
@@ -155,12 +158,22 @@ impl LightTree {
                 self.leaves[leaf].reference
             }
             _ => {
-                let middle = split(&self.leaves, own, depth);
                 let first = self.nodes.len();
-                self.nodes.extend([PackedCluster::default(); 2]);
-                let (left, right) = own.split_at_mut(middle);
-                self.add(first, left, (depth + 1, trail), flags);
-                self.add(first + 1, right, (depth + 1, trail | 1 << depth), flags);
+                self.nodes.extend([PackedCluster::default(); WIDTH]);
+                let mut parts = vec![own];
+                while parts.len() < WIDTH
+                    && let Some(largest) = (0..parts.len()).max_by_key(|&i| parts[i].len())
+                    && parts[largest].len() > 1
+                {
+                    let part = parts.swap_remove(largest);
+                    let middle = split(&self.leaves, part, bits);
+                    let (left, right) = part.split_at_mut(middle);
+                    parts.extend([left, right]);
+                }
+                for (slot, part) in parts.into_iter().enumerate() {
+                    let trail = trail | (slot as u32) << bits;
+                    self.add(first + slot, part, (bits + 2, trail), flags);
+                }
                 first as u32 | flags
             }
         };
@@ -168,8 +181,8 @@ impl LightTree {
     }
 }
 
-/// Sorts leaves into two parts, and returns the size of the first.
-fn split(leaves: &[Leaf], own: &mut [usize], depth: u32) -> usize {
+/// Sorts leaves into two parts, and returns the size of the first. `bits` of their trails are in use.
+fn split(leaves: &[Leaf], own: &mut [usize], bits: u32) -> usize {
     let half = own.len() / 2;
     let cluster = |leaf: usize| &leaves[leaf].cluster;
     let places = own.iter().map(|&leaf| cluster(leaf).middle());
@@ -177,8 +190,8 @@ fn split(leaves: &[Leaf], own: &mut [usize], depth: u32) -> usize {
         (DVec3::INFINITY, DVec3::NEG_INFINITY),
         |(min, max), place| (min.min(place), max.max(place)),
     );
-    // A tree of even halves has room for all that are left.
-    let is_deep = 1_u64 << (MAX_DEPTH - depth).min(40) < 4 * own.len() as u64;
+    // Otherwise a child that gets all of them, two bits further on, still has room for a tree of even parts.
+    let is_deep = 1_u64 << (TRAIL_BITS - bits) < 4 * own.len() as u64;
     let size = max - min;
     if is_deep || size.max_element() <= 0.0 {
         return half;
