@@ -386,7 +386,7 @@ fn moving_nodes_are_interpolated_linearly() {
     let mut verdict = Verdict::on("node_between");
     for (i, ((a, b, fraction), got)) in inputs.iter().zip(&nodes).enumerate() {
         verdict.near(
-            format!("children {i}"),
+            format!("child_count {i}"),
             &got.child_count,
             &a.child_count,
             Tolerance::Exact,

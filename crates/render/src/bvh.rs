@@ -75,9 +75,9 @@ pub struct Bvh {
 /// The most entries on the stack of a walk in which every child of every node on the way is hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StackNeed {
-    /// If entries are references to children, pushed far to near, with one that marks the empty stack.
+    /// With an entry for each child that is still to be visited, pushed far to near, and one that marks the empty stack.
     pub references: usize,
-    /// If an entry is a node with all of its children that are still to be visited.
+    /// With an entry for each node that has children still to be visited.
     pub nodes: usize,
 }
 
@@ -98,7 +98,7 @@ impl StackNeed {
         }
     }
 
-    /// The larger number of both.
+    /// The larger of each number.
     pub fn max(self, other: Self) -> Self {
         Self {
             references: self.references.max(other.references),

@@ -87,6 +87,8 @@ pub struct Top {
     pub nodes: Arc<[PackedNode]>,
     /// With the trees below; nothing if it has no nodes of its own.
     stack_need: StackNeed,
+    /// That of the trees below.
+    need_below: StackNeed,
     first_node: u32,
 }
 
@@ -323,6 +325,7 @@ impl Top {
                 root: [root].into(),
                 nodes: Arc::default(),
                 stack_need: StackNeed::default(),
+                need_below: StackNeed::default(),
                 first_node,
             }))
         };
@@ -336,23 +339,24 @@ impl Top {
             _ => {}
         }
         let parts = opened(trees.iter().copied(), limit);
+        let needs = trees.iter().map(|tree| tree.stack_need);
+        let need_below = needs.fold(StackNeed::default(), StackNeed::max);
         if let Some(before) = before
-            && (before.first_node, &before.parts) == (first_node, &parts)
+            && (before.first_node, before.need_below, &before.parts)
+                == (first_node, need_below, &parts)
             && !before.nodes.is_empty()
         {
             return Ok(before.clone());
         }
         work.top = 1;
         let boxes: Vec<_> = parts.iter().map(|(aabb, _)| *aabb).collect();
-        let below =
-            (trees.iter().map(|tree| tree.stack_need)).fold(StackNeed::default(), StackNeed::max);
         let limits = bvh::Limits {
             leaf_size: 1,
             alone: None,
-            stack_size: STACK_ENTRIES - below.references,
+            stack_size: STACK_ENTRIES - need_below.references,
         };
         let bvh = bvh::build(&boxes, &vec![0; boxes.len()], 1, limits);
-        let stack_need = bvh.stack_need + below;
+        let stack_need = bvh.stack_need + need_below;
         if stack_need.references > STACK_ENTRIES {
             return Err(PackError::TooDeep {
                 need: stack_need.references,
@@ -381,6 +385,7 @@ impl Top {
             nodes,
             parts,
             stack_need,
+            need_below,
             first_node,
         }))
     }
