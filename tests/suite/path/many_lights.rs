@@ -101,11 +101,16 @@ fn steps_below(clusters: &[PackedCluster], reference: u32) -> u32 {
         .expect("a child")
 }
 
-/// Each step takes two of 32 bits of a trail. Every lamp is twice as far away as the one before, and there are sixteen of each.
+/// Each step takes two of 32 bits of a trail. Along each axis lamps are twice as far away as the one before, and 256 are in the
+/// place of the first.
 #[test]
 fn a_light_tree_is_no_deeper_than_its_trails_are_long() {
-    let scene = floor_under(matte(0.5), 16 * 160, |index, _| LightKind::Point {
-        position: DVec3::X * 2f64.powi((index / 16) as i32 - 115),
+    let scene = floor_under(matte(0.5), 255 + 216, |index, _| {
+        let step = index.saturating_sub(255);
+        let axis = [DVec3::X, DVec3::Y, DVec3::Z][step % 3];
+        LightKind::Point {
+            position: axis * 2f64.powi((step / 3) as i32 - 23),
+        }
     });
     let packed = pack::scene(&scene).expect("a scene that can be packed");
     let view = packed.frame(&scene.frame(0.0)).expect("a frame");
