@@ -45,11 +45,20 @@ def material_of(material):
     if material.metal:
         found, shader = node_material("metal", "ShaderNodeBsdfAnisotropic", Color=(*material.metal, 1),
                                       Roughness=material.roughness)
-        shader.distribution = "MULTI_GGX"
+        # As in Mitsuba, microfacets have no compensation.
+        shader.distribution = "GGX"
         return found
     if material.ior:
         return node_material("glass", "ShaderNodeBsdfGlass", Roughness=0.0, IOR=material.ior)[0]
-    return node_material("glow", "ShaderNodeEmission", Color=(*material.radiance, 1), Strength=1.0)[0]
+    found, shader = node_material("glow", "ShaderNodeEmission", Color=(*material.radiance, 1))
+    # The front alone shines.
+    nodes, links = found.node_tree.nodes, found.node_tree.links
+    place, front = nodes.new("ShaderNodeNewGeometry"), nodes.new("ShaderNodeMath")
+    front.operation, front.inputs[0].default_value = "SUBTRACT", 1.0
+    links.new(place.outputs["Backfacing"], front.inputs[1])
+    links.new(front.outputs[0], shader.inputs["Strength"])
+    found.cycles.emission_sampling = "FRONT"
+    return found
 
 
 def add(name, data):
