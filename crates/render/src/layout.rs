@@ -324,8 +324,8 @@ packed! {
         power: f32,
         /// Half of the diagonal of the box, squared.
         radius2: f32,
-        /// The first of four clusters, with [`LIGHT_BY_POWER`] if power alone chooses, of which those without lights have 0; or [`LIGHT_LEAF`] with a light, or also
-        /// with [`LIGHT_EMITTERS`] a group of emitters. With [`LIGHT_TWO_SIDED`] as the cluster is.
+        /// The first of four clusters, with [`LIGHT_BY_POWER`] if power alone chooses; or [`LIGHT_LEAF`] with a light, or also
+        /// with [`LIGHT_EMITTERS`] a group of emitters; or 0 without lights. With [`LIGHT_TWO_SIDED`] as the cluster is.
         child: u32,
         /// The axis of the cone: octahedral x and y as signed 16-bit fractions (Meyer and others 2010).
         axis: u32,
